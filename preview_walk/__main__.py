@@ -1,0 +1,5 @@
+"""`python -m preview_walk` is `preview-walk`."""
+
+from preview_walk.cli import main
+
+raise SystemExit(main())

@@ -1,0 +1,72 @@
+"""Motion over time: CoM, DCM and ZMP along an axis; heights of the feet."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+
+from preview_walk.analysis.geometry import from_start, start_frame, turn
+from preview_walk.analysis.style import (
+    COM,
+    DCM,
+    MEASURED,
+    ZMP,
+    draw_pair,
+    finish,
+    legend,
+    mark_fall,
+    planned_key,
+    shade_phases,
+)
+from preview_walk.simulation.record import Record
+
+
+def draw_axis(ax: Axes, record: Record, axis: int) -> None:
+    """Draw CoM, DCM and ZMP, measured and planned, over time in the start's frame.
+
+    `axis` is 0 for x (along the first heading) or 1 for y (to its left), m.
+    """
+    patches = shade_phases(ax, record)
+    for name, points, ref, colour in (
+        ("ZMP", record.zmp, record.zmp_ref, ZMP),
+        ("DCM", record.dcm, record.dcm_ref, DCM),
+        ("CoM", record.com[:, :2], record.com_ref[:, :2], COM),
+    ):
+        measured = from_start(record, points)[:, axis]
+        planned = from_start(record, ref)[:, axis]
+        draw_pair(ax, record.time, measured, planned, colour, name)
+    mark_fall(ax, record)
+    title, label = (("Forward", "x [m]"), ("Sideways", "y, to the left [m]"))[axis]
+    finish(ax, f"{title}: CoM, DCM and ZMP", label)
+    legend(ax, planned_key(), *patches)
+
+
+def draw_errors(ax: Axes, record: Record) -> None:
+    """Draw the CoM's error, measured minus reference, in the start's frame, mm."""
+    patches = shade_phases(ax, record)
+    error = record.com - record.com_ref
+    plane = 1e3 * turn(error[:, :2], -start_frame(record)[1])
+    for name, values, colour in (
+        ("x", plane[:, 0], COM),
+        ("y", plane[:, 1], ZMP),
+        ("z", 1e3 * error[:, 2], DCM),
+    ):
+        ax.plot(record.time, values, color=colour, **MEASURED, label=name)
+    mark_fall(ax, record)
+    finish(ax, "CoM, measured minus planned", "error [mm]")
+    legend(ax, *patches)
+
+
+def draw_feet(ax: Axes, record: Record) -> None:
+    """Draw the height of the sole centres over time, mm above the first planned soles."""
+    patches = shade_phases(ax, record)
+    ground = 0.5 * (record.left_foot_ref[0, 2, 3] + record.right_foot_ref[0, 2, 3])
+    for foot, measured, planned in (
+        ("left", record.left_foot, record.left_foot_ref),
+        ("right", record.right_foot, record.right_foot_ref),
+    ):
+        colour = COM if foot == "left" else ZMP  # stronger than the shading of the same foot
+        height, planned_height = (1e3 * (pose[:, 2, 3] - ground) for pose in (measured, planned))
+        draw_pair(ax, record.time, height, planned_height, colour, foot)
+    mark_fall(ax, record)
+    finish(ax, "Height of the sole centres", "height [mm]")
+    legend(ax, planned_key(), *patches)

@@ -1,0 +1,92 @@
+"""The walk from above: footprints, ZMP and CoM, planned and measured."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch, Polygon
+
+from preview_walk.analysis.geometry import from_start, sole_corners, start_frame
+from preview_walk.analysis.style import (
+    COM,
+    FOOT_COLOURS,
+    MEASURED,
+    PLANNED,
+    ZMP,
+    darker,
+    finish,
+    legend,
+    planned_key,
+)
+from preview_walk.simulation.record import Record
+from preview_walk.types import FEET, Array
+
+_FALLBACK_SOLE = (0.1, 0.05)
+
+
+def planned_footprints(record: Record) -> list[tuple[int, Array, float, float]]:
+    """Return (foot, pose (4, 4), land, next lift of that foot) of every sole of the plan.
+
+    Those that were stepped on come from the plan in force at the time, the others from the last
+    plan. Times in s; the last lift is infinite.
+    """
+    if not len(record.plans):
+        return []
+    end = float(record.time[-1])
+    walked, last = record.plans.walked(end), record.plans[-1]
+    soles = list(zip(walked.foot, walked.pose, walked.lift, walked.land, strict=True))
+    ahead = last.land > end
+    soles += zip(
+        last.foot[ahead], last.pose[ahead], last.lift[ahead], last.land[ahead], strict=True
+    )
+    footprints = []
+    for i, (foot, pose, _, land) in enumerate(soles):
+        lifts = (float(lift) for other, _, lift, _ in soles[max(i + 1, 2) :] if other == foot)
+        footprints.append((int(foot), pose, float(land), next(lifts, np.inf)))
+    return footprints
+
+
+def measured_footprints(record: Record) -> list[tuple[int, Array]]:
+    """Return (foot, pose (4, 4)) of the soles as measured in the middle of each stance."""
+    first, end = float(record.time[0]), float(record.time[-1])
+    footprints = []
+    for foot, _, land, lift in planned_footprints(record):
+        if land <= end:
+            middle = 0.5 * (max(land, first) + min(lift, end))
+            tick = min(int(np.searchsorted(record.time, middle)), len(record) - 1)
+            poses = record.left_foot if FEET[foot] == "left" else record.right_foot
+            footprints.append((foot, poses[tick]))
+    return footprints
+
+
+def draw_top_view(ax: Axes, record: Record) -> None:
+    """Draw soles (planned dashed, measured filled), ZMP and CoM in the start's frame, m."""
+    sole = tuple(record.settings.get("sole", _FALLBACK_SOLE))
+    half_length, half_width = float(sole[0]), float(sole[1])
+    for foot, pose in measured_footprints(record):
+        corners = from_start(record, sole_corners(pose, half_length, half_width))
+        colour = FOOT_COLOURS[FEET[foot]]
+        ax.add_patch(Polygon(corners, facecolor=colour, alpha=0.35, edgecolor="none"))
+    for _, pose, _, _ in planned_footprints(record):
+        corners = from_start(record, sole_corners(pose, half_length, half_width))
+        ax.add_patch(Polygon(corners, fill=False, edgecolor="0.3", zorder=2, **PLANNED))
+    for name, points, ref, colour in (
+        ("ZMP", record.zmp, record.zmp_ref, ZMP),
+        ("CoM", record.com[:, :2], record.com_ref[:, :2], COM),
+    ):
+        ax.plot(*from_start(record, points).T, color=colour, **MEASURED, label=f"{name} measured")
+        ax.plot(*from_start(record, ref).T, color=darker(colour), **PLANNED)
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.autoscale_view()
+    (x, y), yaw = start_frame(record)
+    where = ""
+    if np.abs([x, y, yaw]).max() > 1e-3:
+        where = f" (from the start at {x:.2f}, {y:.2f} m, heading {np.degrees(yaw):.0f}°)"
+    finish(ax, f"Top view{where}", "y, to the left [m]", time_axis=False)
+    ax.set_xlabel("x, along the first heading [m]")
+    soles = [
+        Patch(facecolor=FOOT_COLOURS[foot], alpha=0.35, label=f"{foot} sole measured")
+        for foot in FEET
+    ]
+    outline = Patch(fill=False, edgecolor="0.3", linestyle="--", label="soles planned")
+    legend(ax, planned_key("ZMP, CoM planned"), *soles, outline)

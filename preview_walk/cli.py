@@ -1,0 +1,192 @@
+"""The command `preview-walk`: plan, walk, print the table, write the folder."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import sys
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from preview_walk.cli_options import Options, complain, parse
+from preview_walk.errors import InvalidInput, PreviewWalkError
+from preview_walk.files import OutputError, whole_file
+
+if TYPE_CHECKING:
+    from preview_walk.planning.footsteps import FootstepPlan
+    from preview_walk.robots.robot import Robot
+    from preview_walk.simulation.pushes import Push
+    from preview_walk.simulation.record import Record
+
+RAMP_LENGTH = 0.1
+"""m: the walk speeds up and slows down by about this much a step."""
+
+WALKED, FELL, BAD_INPUT, BUG, STOPPED = 0, 1, 2, 3, 130
+
+_OPTION_OF = {
+    "step_length": "--step-length",
+    "step_time": "--step-time",
+    "double_support_ratio": "--double-support-ratio",
+    "step_width": "--robot",
+    "n_steps": "--steps",
+    "start_pos": "--start",
+    "friction": "--friction",
+    "push": "--push",
+    "seed": "--seed",
+    "robot": "--robot",
+}
+"""The option that sets an argument of the library, by the name that its errors use."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command with `argv` (default: the process's); return the exit code."""
+    try:
+        options = parse(argv)
+        command = shlex.join(["preview-walk", *(sys.argv[1:] if argv is None else argv)])
+        return _run(options, command)
+    except OutputError as error:
+        complain(f"--out: {error} Choose a folder that can be written, with space left.")
+        return BAD_INPUT
+    except PreviewWalkError as error:
+        complain(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        complain("stopped by Ctrl-C.")
+        return STOPPED
+    except Exception:
+        traceback.print_exc()
+        return BUG
+
+
+def _run(options: Options, command: str) -> int:
+    with _naming("--view"):
+        _require_screen(options.view)
+    import preview_walk as pw  # not before the options are right: engines take a while to load
+
+    with _naming("--robot"):
+        robot = pw.load_robot(options.robot)
+    with _naming("--step-length"):
+        plan = _plan(options, robot)
+    with _naming("--push"):
+        pushes = _pushes(options, plan)
+    _make_folder(options.out)
+    friction = {} if options.friction is None else {"friction": options.friction}
+    with _naming("--robot"), _progress_bar() as progress:
+        record = pw.simulate(
+            robot,
+            plan,
+            pushes=pushes,
+            seed=options.seed,
+            progress=progress,
+            viewer=options.view,
+            **friction,
+        )
+    record = record.with_settings(command=command)
+    stopped = bool(record.settings.get("interrupted"))
+    if stopped:
+        print(f"Stopped by Ctrl-C after {len(record) * record.dt:.2f} s; this is the walk so far.")
+    print(record.summary())
+    written = _write(record, robot, options.out, video=options.video and not stopped)
+    print(f"Written to {options.out}: {', '.join(path.name for path in written)}")
+    if stopped:
+        return STOPPED
+    return FELL if record.settings.get("fell") else WALKED
+
+
+def _plan(options: Options, robot: Robot) -> FootstepPlan:
+    from preview_walk.planning.footstep_planner import FootstepPlanner
+
+    planner = FootstepPlanner(
+        step_length=options.step_length,
+        step_width=robot.step_width,
+        step_time=options.step_time,
+        double_support_ratio=options.double_support_ratio,
+    )
+    ramp = round(abs(options.step_length) / RAMP_LENGTH)
+    return planner.generate_footsteps(options.steps, options.start, ramp=ramp)
+
+
+def _pushes(options: Options, plan: FootstepPlan) -> tuple[Push, ...]:
+    from preview_walk.simulation.pushes import Push
+
+    for time, _, _ in options.pushes:
+        if time >= plan.end:
+            raise InvalidInput(
+                f"must begin before the walk ends at {plan.end:.2f} s, got {time:g} s."
+            )
+    return tuple(Push(time, duration, force) for time, duration, force in options.pushes)
+
+
+def _write(record: Record, robot: Robot, folder: Path, *, video: bool) -> list[Path]:
+    """Write everything to the folder, most precious first; return the paths."""
+    import preview_walk as pw
+    from preview_walk.analysis import PLOTS, plot_all
+
+    movie = folder / "walk.mp4"
+    # Of an earlier run nothing may stay that could be taken for a part of this one.
+    for old in (folder / "record.npz", folder / "summary.json", folder / "walk.png", movie):
+        old.unlink(missing_ok=True)
+    for name in PLOTS:
+        (folder / f"{name}.png").unlink(missing_ok=True)
+    written = [record.save(folder / "record.npz"), record.summary().write(folder / "summary.json")]
+    if len(record):
+        written += [pw.plot(record, folder / "walk.png"), *plot_all(record, folder)]
+    if video:
+        with _naming("--video"), whole_file(movie) as part:
+            pw.render_video(record, robot, part)
+        written.append(movie)
+    return written
+
+
+@contextmanager
+def _naming(option: str) -> Iterator[None]:
+    """Put an option's name before the sentence of an error: the one it speaks of, or `option`."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except PreviewWalkError as error:
+        words = re.findall(r"\w+", str(error))
+        name = next((_OPTION_OF[word] for word in words if word in _OPTION_OF), option)
+        raise InvalidInput(f"{name}: {str(error).rstrip('.')}.") from error
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {folder}: {error.strerror}.") from error
+    if not os.access(folder, os.W_OK):
+        raise OutputError(f"cannot write to the folder {folder}: Permission denied.")
+
+
+def _require_screen(view: bool) -> None:
+    screens = ("DISPLAY", "WAYLAND_DISPLAY")
+    if view and sys.platform.startswith("linux") and not any(map(os.environ.get, screens)):
+        raise InvalidInput("needs a screen, and there is none; allowed without one is --video.")
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[float, float], None]]:
+    """Show a bar on stderr; gives the function to call with the simulated time and its end, s."""
+    from tqdm import tqdm
+
+    form = "{desc}: {percentage:3.0f}%|{bar}| {n:.1f}/{total:.1f} s [{elapsed}<{remaining}]"
+    interval = 0.1 if sys.stderr.isatty() else 5.0
+    with tqdm(desc="walking", total=1.0, bar_format=form, mininterval=interval) as bar:
+
+        def progress(time: float, end: float) -> None:
+            bar.total = end
+            bar.update(time - bar.n)
+
+        yield progress
+        with suppress(OSError):
+            bar.refresh()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,45 @@
+"""Files that are whole or absent: a full disk or Ctrl-C never leaves half of one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from preview_walk.errors import PreviewWalkError
+
+
+class OutputError(PreviewWalkError, OSError):
+    """A result that could not be written; says which file and why."""
+
+    def __str__(self) -> str:
+        """Return the sentence alone, without OSError's number."""
+        return str(self.args[0])
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give a temporary path beside `path`; put it in place of `path` once it is whole.
+
+    The temporary name keeps the suffix, which tells picture and video writers the format. The
+    folder must exist. Whatever ends the block early (an error, Ctrl-C) removes the temporary file
+    and leaves an older `path` as it was.
+
+    Raises:
+        OutputError: the file cannot be written (folder missing, no permission, disk full).
+    """
+    target = Path(path)
+    part = target.with_name(f".part-{os.getpid()}-{target.name}")
+    try:
+        yield part
+        # On disk before it takes the name: some file systems report a full disk only here.
+        with open(part, "rb+") as file:
+            os.fsync(file.fileno())
+        os.replace(part, target)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise OutputError(f"cannot write {target}: {reason}.") from error
+    finally:
+        with suppress(OSError):
+            part.unlink()

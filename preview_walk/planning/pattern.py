@@ -1,0 +1,129 @@
+"""The walking pattern: from a plan to what the robot should do at an instant.
+
+Kajita's pattern generator, kept live: footsteps give the ZMP reference, preview control the CoM,
+polynomials the swing foot. The plan may be replaced at any tick (`WalkingPattern.plan`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from preview_walk.planning.cart_table import GRAVITY
+from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.preview_controller import ComState, PreviewController
+from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
+from preview_walk.planning.zmp_trajectory import Sole, zmp_reference
+from preview_walk.types import Array
+
+PLANNING_DT = 0.005
+"""Time (s) between two steps of the preview controller: Kajita's T."""
+
+PREVIEW_TIME = 1.6
+"""Preview horizon (s): Kajita's 320 samples of 5 ms."""
+
+
+@dataclass(frozen=True, eq=False)
+class ComReference:
+    """What the CoM should do at one instant, in the world.
+
+    `com`, `velocity`, `acceleration` (3,), m; `zmp` (2,): the ZMP of that motion; `zmp_ref` (2,):
+    the plan's; `dcm` (2,): com + velocity / omega.
+    """
+
+    com: Array
+    velocity: Array
+    acceleration: Array
+    zmp: Array
+    zmp_ref: Array
+    dcm: Array
+
+
+class WalkingPattern:
+    """CoM references of a live plan, by preview control at `PLANNING_DT`.
+
+    Attributes:
+        plan: the footsteps; assign another one at any time.
+        com_height: height (m) of the CoM above the soles.
+        omega: natural frequency sqrt(g / com_height) of the pendulum (1/s).
+    """
+
+    def __init__(
+        self,
+        plan: FootstepPlan,
+        com: Array,
+        com_height: float,
+        sole: Sole,
+        momentum: MomentumModel,
+        swing_height: float,
+    ) -> None:
+        """Start at the plan's start with the CoM at rest at `com` (3,), in m."""
+        self.com_height = com_height
+        self.omega = (GRAVITY / com_height) ** 0.5
+        self.controller = PreviewController(
+            momentum.effective_height(com_height), PLANNING_DT, PREVIEW_TIME
+        )
+        self._sole = sole
+        self._momentum = momentum
+        self._swing_height = swing_height
+        self._tick = 0
+        self._start = plan.start
+        self._now: ComState = self.controller.initial_state(com[:2])
+        self._z = float(com[2])
+        self.plan = plan
+        self._next = self._step()
+
+    @property
+    def plan(self) -> FootstepPlan:
+        """The footsteps walked by."""
+        return self._plan
+
+    @plan.setter
+    def plan(self, plan: FootstepPlan) -> None:
+        self._plan = plan
+        self._zmp = zmp_reference(plan, self._sole)
+        # Sampled once per plan from this tick on; a tick only slides the window along.
+        self._first = self._tick
+        n = self.controller.n_preview
+        rest = max(0, int(np.ceil((plan.end - self._start) / PLANNING_DT)) - self._tick)
+        times = self._start + PLANNING_DT * (self._tick + np.arange(rest + n + 2))
+        self._reference = self._zmp.at(times)
+        self._shift = swing_zmp_shift(plan, times, self._momentum, self._swing_height)
+        self._samples = self._reference - self._shift
+
+    def _step(self) -> ComState:
+        """Return the state one planning tick after the present one."""
+        first = self._tick - self._first + 1
+        n = self.controller.n_preview
+        window = self._samples[first : first + n]
+        if len(window) < n:  # past the plan's end: the last ZMP holds
+            last = np.broadcast_to(self._samples[-1], (n - len(window), 2))
+            window = np.concatenate([window, last])
+        return self.controller.step(self._now, window)
+
+    def at(self, t: float) -> ComReference:
+        """Return the CoM reference at time t (s); times must not go back."""
+        while t >= self._start + (self._tick + 1) * PLANNING_DT - 1e-9:
+            self._tick += 1
+            self._now = self._next
+            self._next = self._step()
+        tau = min(max(t - self._start - self._tick * PLANNING_DT, 0.0), PLANNING_DT)
+        state = self.controller.interpolate(self._now, self._next, tau)
+        x, y = state.com.tolist()
+        vx, vy = state.velocity.tolist()
+        ax, ay = state.acceleration.tolist()
+        sample = self._tick - self._first
+        share = tau / PLANNING_DT
+        here = min(sample, len(self._samples) - 1)
+        there = min(sample + 1, len(self._samples) - 1)
+        reference = (1.0 - share) * self._reference[here] + share * self._reference[there]
+        shift = (1.0 - share) * self._shift[here] + share * self._shift[there]
+        return ComReference(
+            np.array((x, y, self._z)),
+            np.array((vx, vy, 0.0)),
+            np.array((ax, ay, 0.0)),
+            state.zmp + shift,
+            reference,
+            np.array((x + vx / self.omega, y + vy / self.omega)),
+        )

@@ -1,0 +1,258 @@
+"""The swing foot: piecewise quintics from lift to landing, at rest at both ends.
+
+x, y and the Z-Y-X angles follow one quintic each; the height follows two, up to an apex halfway
+through the swing and down again.  All derivatives up to the acceleration are zero at lift and
+landing and continuous between, also through `Swing.retarget`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, isfinite, sin
+
+import numpy as np
+
+from preview_walk.errors import InvalidInput
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.pose import as_pose, pose_at, rpy_of, wrap
+from preview_walk.types import Array
+
+State = tuple[float, float, float]
+"""Position, velocity and acceleration of one coordinate."""
+
+REST_SHARE = 0.49
+"""Share of its rise that the sole has made when a tenth of the horizontal travel is done."""
+
+
+@dataclass(frozen=True)
+class Quintic:
+    """A quintic polynomial of one coordinate over [start, end] (s), held outside."""
+
+    start: float
+    end: float
+    coefficients: tuple[float, float, float, float, float, float]
+
+    @classmethod
+    def between(cls, start: float, end: float, first: State, last: State) -> Quintic:
+        """Return the quintic with the given states at its two ends."""
+        h = end - start
+        p0, v0, a0 = first[0], first[1] * h, 0.5 * first[2] * h * h
+        dp = last[0] - p0 - v0 - a0
+        dv = last[1] * h - v0 - 2.0 * a0
+        da = last[2] * h * h - 2.0 * a0
+        c3 = 10.0 * dp - 4.0 * dv + 0.5 * da
+        c4 = -15.0 * dp + 7.0 * dv - da
+        c5 = 6.0 * dp - 3.0 * dv + 0.5 * da
+        return cls(start, end, (p0, v0, a0, c3, c4, c5))
+
+    def at(self, t: float) -> State:
+        """Return position, velocity and acceleration at time t."""
+        h = self.end - self.start
+        u = (t - self.start) / h
+        if u < 0.0:
+            u = 0.0
+        elif u > 1.0:
+            u = 1.0
+        a, b, c, d, e, f = self.coefficients
+        return (
+            a + u * (b + u * (c + u * (d + u * (e + u * f)))),
+            (b + u * (2.0 * c + u * (3.0 * d + u * (4.0 * e + u * 5.0 * f)))) / h,
+            (2.0 * c + u * (6.0 * d + u * (12.0 * e + u * 20.0 * f))) / (h * h),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Swing:
+    """The path of one sole from lift to landing.
+
+    Attributes:
+        start: sole pose at lift, (4, 4).
+        end: sole pose at landing, (4, 4).
+        lift: time (s) at which the sole leaves the ground.
+        land: time (s) at which it is down.
+        swing_height: height (m) of the apex above the higher of the two soles.
+        ground_clearance: height (m) of the sole centre above the straight line from one sole
+            centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
+            apex is raised where `swing_height` alone does not give it.
+    """
+
+    start: Array
+    end: Array
+    lift: float
+    land: float
+    swing_height: float = 0.05
+    ground_clearance: float = 0.02
+    _plane: tuple[Quintic, ...] = ()
+    _vertical: tuple[Quintic, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check the fields; make the polynomials."""
+        if self._plane:
+            return
+        object.__setattr__(self, "start", as_pose(self.start, "start of the swing"))
+        object.__setattr__(self, "end", as_pose(self.end, "end of the swing"))
+        if not (isfinite(self.lift) and isfinite(self.land) and self.lift < self.land):
+            raise InvalidInput(
+                f"a swing needs finite times (s) with lift < land, "
+                f"got lift {self.lift} and land {self.land}."
+            )
+        for name in ("swing_height", "ground_clearance"):
+            value = getattr(self, name)
+            if not (isfinite(value) and value >= 0.0):
+                raise InvalidInput(f"{name} must be >= 0 m, got {value}.")
+        first, last = _coordinates(self.start), _coordinates(self.end)
+        plane = tuple(
+            Quintic.between(self.lift, self.land, (p, 0.0, 0.0), (q, 0.0, 0.0))
+            for p, q in zip(first, _near(last, first), strict=True)
+        )
+        z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
+        apex, middle = self._apex(z0, z1), 0.5 * (self.lift + self.land)
+        vertical = (
+            Quintic.between(self.lift, middle, (z0, 0.0, 0.0), (apex, 0.0, 0.0)),
+            Quintic.between(middle, self.land, (apex, 0.0, 0.0), (z1, 0.0, 0.0)),
+        )
+        object.__setattr__(self, "_plane", plane)
+        object.__setattr__(self, "_vertical", vertical)
+
+    def _apex(self, z0: float, z1: float) -> float:
+        return max(z0, z1) + max(self.swing_height, self.ground_clearance / REST_SHARE)
+
+    def at(self, t: float) -> tuple[Array, Array, Array]:
+        """Return pose (4, 4), velocity (6,) and acceleration (6,) of the sole at time t (s).
+
+        Velocity and acceleration are [linear; angular], in the world, of the sole frame's origin.
+        Before lift the sole is at `start`, after landing at `end`, at rest.
+        """
+        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
+            q.at(t) for q in self._plane
+        )
+        z, vz, az = self._height(t).at(t)
+        cw, sw, cp, sp, cr, sr = cos(w), sin(w), cos(p), sin(p), cos(r), sin(r)
+        pose = np.array(
+            [
+                [cw * cp, cw * sp * sr - sw * cr, cw * sp * cr + sw * sr, x],
+                [sw * cp, sw * sp * sr + cw * cr, sw * sp * cr - cw * sr, y],
+                [-sp, cp * sr, cp * cr, z],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+        # Angular velocity of Rz(w) Ry(p) Rx(r), and its derivative, in the world.
+        velocity = np.array(
+            [vx, vy, vz, cw * cp * vr - sw * vp, sw * cp * vr + cw * vp, vw - sp * vr]
+        )
+        acceleration = np.array(
+            [
+                ax,
+                ay,
+                az,
+                cw * cp * ar - sw * ap - cw * vw * vp - (sw * cp * vw + cw * sp * vp) * vr,
+                sw * cp * ar + cw * ap - sw * vw * vp + (cw * cp * vw - sw * sp * vp) * vr,
+                aw - sp * ar - cp * vp * vr,
+            ]
+        )
+        return pose, velocity, acceleration
+
+    def _height(self, t: float) -> Quintic:
+        for piece in self._vertical:
+            if t < piece.end:
+                return piece
+        return self._vertical[-1]
+
+    def retarget(self, t: float, pose: Array, land: float | None = None) -> Swing:
+        """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
+
+        Position, velocity and acceleration are continuous at t.
+
+        Raises:
+            InvalidInput: t is not within the swing, or `land` is not after t.
+        """
+        land = self.land if land is None else float(land)
+        if not self.lift <= t < self.land:
+            raise InvalidInput(
+                f"t must be within the swing, {self.lift:.3f} s to {self.land:.3f} s, got {t}."
+            )
+        if not land > t:
+            raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
+        end = as_pose(pose, "pose of the landing")
+        now = tuple(q.at(t) for q in self._plane)
+        goal = _near(_coordinates(end), tuple(s[0] for s in now))
+        plane = tuple(
+            Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
+        )
+        z, z1 = self._height(t).at(t), float(end[2, 3])
+        middle = 0.5 * (self.lift + land)
+        if middle - t > 0.2 * (land - t):
+            apex = self._apex(float(self.start[2, 3]), z1)
+            vertical: tuple[Quintic, ...] = (
+                Quintic.between(t, middle, z, (apex, 0.0, 0.0)),
+                Quintic.between(middle, land, (apex, 0.0, 0.0), (z1, 0.0, 0.0)),
+            )
+        else:
+            vertical = (Quintic.between(t, land, z, (z1, 0.0, 0.0)),)
+        return Swing(
+            self.start, end, self.lift, land, self.swing_height, self.ground_clearance,
+            plane, vertical,
+        )
+
+
+def swing_of(
+    plan: FootstepPlan,
+    step: Footstep,
+    swing_height: float = 0.05,
+    ground_clearance: float = 0.02,
+) -> Swing:
+    """Return the swing of one step of a plan."""
+    return Swing(
+        plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
+    )
+
+
+def _coordinates(pose: Array) -> tuple[float, ...]:
+    roll, pitch, yaw = rpy_of(pose)
+    return float(pose[0, 3]), float(pose[1, 3]), yaw, pitch, roll
+
+
+def _near(goal: Sequence[float], now: Sequence[float]) -> tuple[float, ...]:
+    """Return the goal with its yaw on the same turn as the present one."""
+    x, y, yaw, pitch, roll = goal
+    return x, y, now[2] + wrap(yaw - now[2]), pitch, roll
+
+
+@dataclass(frozen=True)
+class SwingLegTrajectory:
+    """The walking lab's name for a sampled swing between two sole positions.
+
+    Attributes: see `Swing`.
+    """
+
+    swing_height: float = 0.05
+    ground_clearance: float = 0.02
+
+    def generate_trajectory(
+        self, start_pos: Sequence[float], end_pos: Sequence[float], duration: float, dt: float
+    ) -> tuple[Array, Array, Array]:
+        """Return t (N,), position (N, 3) and velocity (N, 3) from lift (t = 0) to landing.
+
+        Args:
+            start_pos: sole centre (x, y, z) at lift, m.
+            end_pos: sole centre (x, y, z) at landing, m.
+            duration: time (s) in the air.
+            dt: sample time (s).
+        """
+        for name, value in (("duration", duration), ("dt", dt)):
+            if not (isfinite(value) and value > 0.0):
+                raise InvalidInput(f"{name} must be > 0 s, got {value}.")
+        ends = []
+        for name, pos in (("start_pos", start_pos), ("end_pos", end_pos)):
+            values = np.asarray(pos, dtype=np.float64)
+            if values.shape != (3,) or not np.isfinite(values).all():
+                raise InvalidInput(f"{name} must be (x, y, z) in m, got {pos!r}.")
+            ends.append(pose_at(float(values[0]), float(values[1]), 0.0, float(values[2])))
+        swing = Swing(
+            ends[0], ends[1], 0.0, duration, self.swing_height, self.ground_clearance
+        )
+        t = dt * np.arange(round(duration / dt) + 1)
+        samples = [swing.at(s) for s in t.tolist()]
+        pos = np.array([pose[:3, 3] for pose, _, _ in samples])
+        return t, pos, np.array([velocity[:3] for _, velocity, _ in samples])

@@ -1,0 +1,63 @@
+"""A robot ready to walk: one model in two engines, its soles, limits and walking posture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import mujoco
+import pinocchio as pin
+
+from preview_walk.types import Array, Foot
+
+
+@dataclass(frozen=True)
+class RobotSole:
+    """A sole: its Pinocchio frame (the sole frame), MuJoCo geom and half size in m."""
+
+    frame: int
+    geom: int
+    half_length: float
+    half_width: float
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A legged robot in MuJoCo and Pinocchio, loaded by `preview_walk.load_robot`.
+
+    Arrays over joints have one entry per joint below the floating base, in MuJoCo's and
+    Pinocchio's common order (n = nv - 6).
+
+    - `mj`, `pin`: the two models; `soles`: one per foot; `torso`: Pinocchio frame of the trunk.
+    - `effort` (n,): largest joint torque in N·m, 0 for a joint without a motor.
+    - `q_lower`, `q_upper` (n,): joint limits in rad, infinite where the model has none.
+    - `v_limit` (n,): joint speed limits in rad/s, infinite where the model has none.
+    - `damping` (n,): viscous joint friction in N·m·s/rad, which MuJoCo adds to the motors.
+    - `posture` (nq,): Pinocchio configuration of the walking posture, with the midpoint between
+      the soles at the origin and the robot facing x.
+    - `mass` (kg), `leg_length` (hip to sole, stretched), `step_width` (between the sole centres in
+      the posture), `com_height` (of the posture above the soles), in m.
+    """
+
+    name: str
+    title: str
+    source: str
+    mj: mujoco.MjModel
+    pin: pin.Model
+    soles: Mapping[Foot, RobotSole]
+    torso: int
+    effort: Array
+    q_lower: Array
+    q_upper: Array
+    v_limit: Array
+    damping: Array
+    posture: Array
+    mass: float
+    leg_length: float
+    step_width: float
+    com_height: float
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints, in the order of the joint arrays."""
+        return tuple(str(name) for name in self.pin.names[2:])

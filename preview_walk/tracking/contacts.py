@@ -1,0 +1,47 @@
+"""A sole on the ground: the wrench it can carry.
+
+The wrench [force; moment] (N, N·m) acts on the robot at the sole's centre, in the sole's axes.
+With coulomb friction under a rectangle it must lie in a cone of constant matrix (Caron, Pham and
+Nakamura, ICRA 2015, eqs. 8-15), which saves the QP from moving entries.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from preview_walk.robots.robot import RobotSole
+from preview_walk.types import Array
+
+COP_MARGIN = 0.1
+"""Share of the sole's half size, at each edge, that the centre of pressure keeps clear of."""
+
+
+def wrench_cone(half_length: float, half_width: float, friction: float) -> Array:
+    """Return C (16, 6) such that C @ wrench <= 0 for every wrench that a sole can carry.
+
+    Half sizes in m, `friction` the coulomb coefficient. The friction cone is its inscribed
+    pyramid. Rows: 4 of friction, 4 of the centre of pressure, 8 of the yaw moment.
+    """
+    x, y, mu = half_length, half_width, friction / np.sqrt(2.0)
+    rows = [
+        [1, 0, -mu, 0, 0, 0],
+        [-1, 0, -mu, 0, 0, 0],
+        [0, 1, -mu, 0, 0, 0],
+        [0, -1, -mu, 0, 0, 0],
+        [0, 0, -y, 1, 0, 0],
+        [0, 0, -y, -1, 0, 0],
+        [0, 0, -x, 0, 1, 0],
+        [0, 0, -x, 0, -1, 0],
+    ]
+    # Yaw moment, side * mz <= mu (x + y) fz - |y fx + side mu mx| - |x fy + side mu my|.
+    for side, a, b in itertools.product((1, -1), (1, -1), (1, -1)):
+        rows.append([a * y, b * x, -mu * (x + y), side * a * mu, side * b * mu, side])
+    return np.array(rows, dtype=float)
+
+
+def sole_cone(sole: RobotSole, friction: float) -> Array:
+    """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN`."""
+    keep = 1.0 - COP_MARGIN
+    return wrench_cone(keep * sole.half_length, keep * sole.half_width, friction)

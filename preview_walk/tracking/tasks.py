@@ -1,0 +1,150 @@
+"""Tasks: what the robot's motion should be, each as a linear least-squares term in the QP.
+
+A task asks for `jacobian @ a = target` (a: generalised accelerations) with a weight. One's own
+task is a class with `rows`, `weight` and `update`; see `examples/own_task.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+import pinocchio as pin
+
+from preview_walk.tracking.dynamics import Dynamics
+from preview_walk.types import Array, Foot
+
+
+class Task(Protocol):
+    """A least-squares term `weight * |jacobian @ a - target|^2` of the QP."""
+
+    rows: int
+    """Number of equations."""
+    weight: float
+    """Importance relative to the other tasks, in 1 / (unit of the acceleration)^2."""
+
+    def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
+        """Write the task at the current state into `jacobian` (rows, nv) and `target` (rows,)."""
+
+
+class CoMTask:
+    """The CoM's acceleration (3,) in the world follows `acceleration`, in m/s^2."""
+
+    rows = 3
+
+    def __init__(self, weight: float) -> None:
+        self.weight = weight
+        self.acceleration: Array = np.zeros(3)
+
+    def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
+        """See `Task.update`."""
+        jacobian[:] = dynamics.com_jacobian
+        np.subtract(self.acceleration, dynamics.com_drift, out=target)
+
+
+class FootTask:
+    """A foot's sole follows a pose with its velocity and acceleration.
+
+    Feedback of natural frequency `frequency` (rad/s), critically damped. The reference is the sole
+    pose (4, 4), velocity (6,) and acceleration (6,) [linear; angular], all in the world.
+    """
+
+    rows = 6
+
+    def __init__(self, foot: Foot, weight: float, frequency: float) -> None:
+        self.foot: Foot = foot
+        self.weight = weight
+        self.stiffness, self.damping = frequency**2, 2.0 * frequency
+        self.pose: Array = np.eye(4)
+        self.velocity: Array = np.zeros(6)
+        self.acceleration: Array = np.zeros(6)
+
+    def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
+        """See `Task.update`."""
+        terms = dynamics.feet[self.foot]
+        rotation = terms.rotation
+        jacobian[:] = terms.jacobian
+        # In the sole's axes: pull towards the reference, plus its own motion.
+        target[:3] = (
+            self.stiffness * (self.pose[:3, 3] - terms.position)
+            + self.damping * self.velocity[:3]
+            + self.acceleration[:3]
+        ) @ rotation
+        target[3:] = (
+            self.damping * self.velocity[3:] + self.acceleration[3:]
+        ) @ rotation + self.stiffness * pin.log3(rotation.T @ self.pose[:3, :3])
+        target -= self.damping * terms.velocity
+        target -= terms.drift
+
+
+class TorsoTask:
+    """The trunk keeps the orientation `rotation` (3, 3), turning at `velocity` (3,) in the world."""
+
+    rows = 3
+
+    def __init__(self, weight: float, frequency: float) -> None:
+        self.weight = weight
+        self.stiffness, self.damping = frequency**2, 2.0 * frequency
+        self.rotation: Array = np.eye(3)
+        self.velocity: Array = np.zeros(3)
+
+    def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
+        """See `Task.update`."""
+        terms = dynamics.torso
+        rotation = terms.rotation
+        jacobian[:] = terms.jacobian[3:]
+        target[:] = (
+            self.stiffness * pin.log3(rotation.T @ self.rotation)
+            + self.damping * (self.velocity @ rotation - terms.velocity[3:])
+            - terms.drift[3:]
+        )
+
+
+class AngularMomentumTask:
+    """The angular momentum about the CoM decays at `rate` (1/s) towards `momentum` (3,)."""
+
+    rows = 3
+
+    def __init__(self, weight: float, rate: float) -> None:
+        self.weight = weight
+        self.rate = rate
+        self.momentum: Array = np.zeros(3)
+
+    def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
+        """See `Task.update`."""
+        rotation = dynamics.base_rotation
+        lever = dynamics.com - dynamics.data.oMi[1].translation
+        mass = dynamics.mass[:6].copy()
+        mass[:, :6] = np.triu(mass[:, :6]) + np.triu(mass[:, :6], 1).T
+        skew = pin.skew(lever)
+        jacobian[:] = rotation @ mass[3:] - skew @ (rotation @ mass[:3])
+        momentum = jacobian @ dynamics.v
+        force = rotation @ dynamics.data.nle[:3]
+        drift = rotation @ dynamics.data.nle[3:6] - np.cross(lever, force)
+        target[:] = self.rate * (self.momentum - momentum) - drift
+
+
+class PostureTask:
+    """Joints are drawn to `posture` (n,): what the other tasks leave free.
+
+    It is the QP's own diagonal, not rows: `target` is the wanted joint acceleration (n,). The
+    joints listed in `loose` are only damped: legs, whose configuration follows from feet, CoM and
+    torso, so that a pull towards the posture would only bend these tasks.
+    """
+
+    def __init__(
+        self, posture: Array, weight: float, frequency: float, loose: Sequence[int] = ()
+    ) -> None:
+        self.posture = posture
+        self.weight = weight
+        self.stiffness = np.full(len(posture), frequency**2)
+        self.stiffness[list(loose)] = 0.0
+        self.damping = 2.0 * frequency
+
+    def target(self, dynamics: Dynamics) -> Array:
+        """Return the joint accelerations (n,) that lead to the posture, in rad/s^2."""
+        target: Array = (
+            self.stiffness * (self.posture - dynamics.q[7:]) - self.damping * dynamics.v[6:]
+        )
+        return target

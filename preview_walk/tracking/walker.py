@@ -1,0 +1,165 @@
+"""The walker: pattern, feedback and contacts of one tick, from measured state to torques."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.pattern import ComReference, WalkingPattern
+from preview_walk.planning.pose import pose_at, yaw_of
+from preview_walk.planning.swing_trajectory import Swing
+from preview_walk.planning.zmp_trajectory import Sole
+from preview_walk.robots.robot import Robot
+from preview_walk.tracking.gains import TrackingGains
+from preview_walk.tracking.momentum_model import momentum_model
+from preview_walk.tracking.whole_body import WholeBodyController
+from preview_walk.types import FEET, Array, Foot
+
+SWING_HEIGHT = 0.06
+"""Height of the swing foot's apex over the leg's length."""
+
+CONTACT_FORCE = 0.03
+"""A sole counts as on the ground when it carries this share of the weight."""
+
+RAMP_TIME = 0.03
+"""Shortest time (s) over which a new contact may take its full load."""
+
+
+@dataclass
+class FootState:
+    """Where a foot is in its step: in contact since `since`, or on `swing`."""
+
+    contact: bool
+    since: float
+    swing: Swing | None
+    pose: Array
+
+
+class Walker:
+    """Walks a robot along a live plan.
+
+    Call `tick` with the measured state; assign `plan` at any time to change the walk.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        plan: FootstepPlan,
+        com: Array,
+        friction: float,
+        gains: TrackingGains | None = None,
+        solver: str = "osqp",
+    ) -> None:
+        self.robot = robot
+        self.gains = TrackingGains() if gains is None else gains
+        self.body = WholeBodyController(robot, self.gains, friction, solver)
+        half = robot.soles["left"]
+        self.swing_height = SWING_HEIGHT * robot.leg_length
+        self.pattern = WalkingPattern(
+            plan,
+            com,
+            robot.com_height,
+            Sole(half.half_length, half.half_width),
+            momentum_model(robot),
+            self.swing_height,
+        )
+        self.weight = robot.mass * 9.81
+        self.feet = {
+            foot: FootState(True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
+        }
+        self.reference: ComReference | None = None
+
+    @property
+    def plan(self) -> FootstepPlan:
+        """The footsteps walked by."""
+        return self.pattern.plan
+
+    @plan.setter
+    def plan(self, plan: FootstepPlan) -> None:
+        self.pattern.plan = plan
+
+    def tick(self, t: float, q: Array, v: Array, normal_force: dict[Foot, float]) -> Array:
+        """Return the joint torques (n,) in N·m for the state measured at time t (s).
+
+        `q`, `v`: Pinocchio's configuration and velocity; `normal_force`: what each sole's force
+        sensor reads (N).
+        """
+        body = self.body
+        body.update(q, v)
+        self._contacts(t, normal_force)
+        self._track_com(t)
+        self._track_torso(t)
+        return body.torques(self._normal_limits(t))
+
+    def _contacts(self, t: float, normal_force: dict[Foot, float]) -> None:
+        """Follow the plan's lifts and landings, and what the soles feel."""
+        plan = self.pattern.plan
+        step = plan.swing_at(t)
+        for foot, state in self.feet.items():
+            task = self.body.feet[foot]
+            touching = normal_force[foot] > CONTACT_FORCE * self.weight
+            if step is not None and step.foot == foot:
+                if state.swing is None or state.swing.lift != step.lift:
+                    terms = self.body.dynamics.feet[foot]
+                    start = pose_at(*terms.position[:2].tolist(), _yaw(terms.rotation), terms.position[2])
+                    state.swing = Swing(
+                        start, step.pose, step.lift, step.land, self.swing_height
+                    )
+                    state.contact = False
+                late = (t - step.lift) / (step.land - step.lift) > 0.7
+                if not state.contact and late and touching:
+                    state.contact, state.since = True, t
+                state.pose, task.velocity, task.acceleration = state.swing.at(t)
+                task.pose = state.pose
+            else:
+                if not state.contact:
+                    state.contact, state.since = True, t
+                state.pose = plan.sole(foot, t)
+
+    def _track_com(self, t: float) -> None:
+        """Set the CoM task: the reference's acceleration and feedback of the DCM and CoM.
+
+        The error e obeys e'' = -(omega + k) e' - omega k e: poles at -omega and at the DCM gain
+        -k (Sugihara 2009; Englsberger et al. 2015 eq. 29).
+        """
+        reference = self.reference = self.pattern.at(t)
+        dynamics, omega, k = self.body.dynamics, self.pattern.omega, self.gains.dcm
+        error = reference.com - dynamics.com
+        rate = reference.velocity - dynamics.com_velocity
+        acceleration = reference.acceleration + (omega + k) * rate + omega * k * error
+        h = self.gains.height
+        acceleration[2] = reference.acceleration[2] + 2.0 * h * rate[2] + h * h * error[2]
+        self.body.com.acceleration = acceleration
+
+    def _track_torso(self, t: float) -> None:
+        """Set the torso task: upright, facing between the feet."""
+        left, right = (self.feet[foot].pose for foot in FEET)
+        a, b = yaw_of(left), yaw_of(right)
+        yaw = a + 0.5 * ((b - a + np.pi) % (2 * np.pi) - np.pi)
+        self.body.torso.rotation = pose_at(0.0, 0.0, yaw)[:3, :3]
+        rate = 0.0
+        for foot in FEET:
+            if not self.feet[foot].contact:
+                rate += 0.5 * self.body.feet[foot].velocity[5]
+        self.body.torso.velocity = np.array((0.0, 0.0, rate))
+
+    def _normal_limits(self, t: float) -> dict[Foot, float]:
+        """Return the normal force (N) each foot in contact may carry: ramped in double support."""
+        plan = self.pattern.plan
+        full = 2.0 * self.weight
+        limits: dict[Foot, float] = {}
+        lift = next((s for s in plan.steps if s.lift > t), None)
+        for foot, state in self.feet.items():
+            if not state.contact:
+                continue
+            share = min(1.0, (t - state.since) / RAMP_TIME + 0.02)
+            if lift is not None and lift.foot == foot:
+                share = min(share, (lift.lift - t) / RAMP_TIME + 0.01)
+            limits[foot] = full * share
+        return limits
+
+
+def _yaw(rotation: Array) -> float:
+    return float(np.arctan2(rotation[1, 0], rotation[0, 0]))
