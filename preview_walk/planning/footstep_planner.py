@@ -1,15 +1,16 @@
-"""The walking lab's footstep planner: straight walks and arcs with one length, width and time."""
+"""The walking lab's footstep planner: walks of strides from a stance or from another plan."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
 
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
-from preview_walk.planning.pose import Heading, as_heading, compose, pose_at
+from preview_walk.planning.limits import GaitLimits
+from preview_walk.planning.pose import Heading, as_heading, compose, heading_of, midfeet, pose_at
 from preview_walk.types import FEET, Array, Foot, other
 
 STAND_TIME = 1.6
@@ -24,8 +25,48 @@ def sole_beside(frame: Heading, foot: Foot, step_width: float, z: float = 0.0) -
 
 
 @dataclass(frozen=True)
+class Stride:
+    """How one step moves the middle of the stance; None takes what the planner has.
+
+    Attributes:
+        forward: advance (m) in the direction halfway through the turn.
+        left: advance (m) to the left of that direction.
+        turn: change of heading (rad, left positive).
+        width: lateral distance (m) of the landing sole from where the other would stand.
+        time: step time (s): swing of this step and the double support after it.
+        double_support_ratio: share of `time` in double support, in (0, 1).
+
+    Raises:
+        InvalidInput: a value that is not finite or not within its range.
+    """
+
+    forward: float = 0.0
+    left: float = 0.0
+    turn: float = 0.0
+    width: float | None = None
+    time: float | None = None
+    double_support_ratio: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the sizes."""
+        for name, unit in (("forward", "m"), ("left", "m"), ("turn", "rad")):
+            value = getattr(self, name)
+            if not isfinite(value):
+                raise InvalidInput(f"{name} must be finite ({unit}), got {value}.")
+        for name, unit in (("width", "m"), ("time", "s")):
+            value = getattr(self, name)
+            if value is not None and not (isfinite(value) and value > 0.0):
+                raise InvalidInput(f"{name} must be > 0 {unit}, got {value}.")
+        ratio = self.double_support_ratio
+        if ratio is not None and not 0.0 < ratio < 1.0:
+            raise InvalidInput(
+                f"double_support_ratio must be in (0, 1), the share of the step time, got {ratio}."
+            )
+
+
+@dataclass(frozen=True)
 class FootstepPlanner:
-    """Plans steps of one size.
+    """Plans steps of one size, or of sizes given step by step.
 
     Attributes:
         step_length: distance (m) along the walk between one landing and the next, that is half
@@ -93,27 +134,77 @@ class FootstepPlanner:
             InvalidInput: n_steps or ramp is not an integer >= 0, or another argument is not
                 what is described here.
         """
-        for name, count in (("n_steps", n_steps), ("ramp", ramp)):
-            if isinstance(count, bool) or int(count) != count or count < 0:
-                raise InvalidInput(f"{name} must be an integer >= 0, got {count!r}.")
-        if start_foot not in FEET:
-            raise InvalidInput(f"start_foot must be 'left' or 'right', got {start_foot!r}.")
+        if isinstance(n_steps, bool) or int(n_steps) != n_steps or n_steps < 0:
+            raise InvalidInput(f"n_steps must be an integer >= 0, got {n_steps!r}.")
         if not isfinite(turn):
             raise InvalidInput(f"turn must be finite (rad per step), got {turn}.")
-        frame = as_heading(start_pos, "start_pos")
-        left, right = (sole_beside(frame, foot, self.step_width) for foot in FEET)
-        plan = FootstepPlan.standing(left, right)
+        shares = ramp_shares(n_steps - 1, ramp)
+        strides = [Stride(share * self.step_length, 0.0, share * turn) for share in shares]
+        closing = [Stride()] if n_steps else []
+        return self.walk(strides + closing, as_heading(start_pos, "start_pos"), start_foot)
+
+    def walk(
+        self,
+        strides: Iterable[Stride],
+        start: Sequence[float] | FootstepPlan = (0.0, 0.0),
+        start_foot: Foot = "left",
+        limits: GaitLimits | None = None,
+        shorten: bool = False,
+    ) -> FootstepPlan:
+        """Return the walk that makes these strides, feet alternating.
+
+        Each stride moves the middle of the stance; the swinging foot lands half a width to its
+        side of it.  A last `Stride()` brings the feet side by side.
+
+        Args:
+            strides: one for each step.
+            start: (x, y) or (x, y, yaw) of the middle of the first stance (m, rad), or a plan to
+                go on from: it ends, stands, and the strides follow on the same ground height.
+            start_foot: the foot that swings first.
+            limits: bounds of a step; None checks nothing but order and times.
+            shorten: cut steps that break the limits to size instead of refusing them; the walk
+                goes on from where the shorter step lands.
+
+        Raises:
+            InvalidInput: a step breaks the limits, with its number and the bound.
+        """
+        if start_foot not in FEET:
+            raise InvalidInput(f"start_foot must be 'left' or 'right', got {start_foot!r}.")
+        plan = start if isinstance(start, FootstepPlan) else self.stand(start)
+        last = max(plan[0].land, plan[-1].land)
+        soles = {foot: plan.sole(foot, last) for foot in FEET}
+        z = 0.5 * float(soles["left"][2, 3] + soles["right"][2, 3])
+        frame = midfeet(soles["left"], soles["right"])
+        lift = last + max(STAND_TIME, 2.0 * plan.settle)
         steps: list[Footstep] = []
-        foot, lift = start_foot, plan.start + STAND_TIME
-        for index in range(n_steps):
-            share = min(1.0, (index + 1) / (ramp + 1), (n_steps - 1 - index) / (ramp + 1))
-            # Half of the turn before the advance and half after: the feet stay on an arc.
-            frame = compose(frame, 0.0, 0.0, 0.5 * share * turn)
-            frame = compose(frame, share * self.step_length, 0.0, 0.5 * share * turn)
-            land = lift + self.single_support_time
-            steps.append(Footstep(foot, sole_beside(frame, foot, self.step_width), lift, land))
-            foot, lift = other(foot), land + self.double_support_time
-        return plan.replace_after(plan.start, steps)
+        foot = start_foot
+        for stride in strides:
+            width = self.step_width if stride.width is None else stride.width
+            time = self.step_time if stride.time is None else stride.time
+            ratio = stride.double_support_ratio or self.double_support_ratio
+            # Half of the turn before the advance and half after: the walk stays on an arc.
+            frame = compose(frame, 0.0, 0.0, 0.5 * stride.turn)
+            frame = compose(frame, stride.forward, stride.left, 0.5 * stride.turn)
+            pose = sole_beside(frame, foot, width, z)
+            stance = soles[other(foot)]
+            problem = limits.problem(foot, stance, pose) if limits is not None else None
+            if problem is not None and limits is not None:
+                if not shorten:
+                    raise InvalidInput(f"step {len(plan.steps) + len(steps) + 1} {problem}.")
+                landing = limits.clamp(foot, heading_of(stance), heading_of(pose))
+                pose = pose_at(*landing, z)
+                frame = compose(landing, 0.0, -0.5 * width if foot == "left" else 0.5 * width)
+            land = lift + time * (1.0 - ratio)
+            steps.append(Footstep(foot, pose, lift, land))
+            soles[foot] = pose
+            foot, lift = other(foot), land + time * ratio
+        return plan.replace_after(last, steps)
+
+    def stand(self, start: Sequence[float] = (0.0, 0.0)) -> FootstepPlan:
+        """Return the plan without steps, a step width apart, at (x, y) or (x, y, yaw) (m, rad)."""
+        frame = as_heading(start, "start")
+        left, right = (sole_beside(frame, foot, self.step_width) for foot in FEET)
+        return FootstepPlan.standing(left, right)
 
     def get_support_phase(
         self, t: float, footsteps: Sequence[Footstep]
@@ -135,3 +226,14 @@ class FootstepPlanner:
         if until <= since:
             return "double", 0.0 if t < since else 1.0
         return "double", min(1.0, max(0.0, (t - since) / (until - since)))
+
+
+def ramp_shares(count: int, ramp: int) -> list[float]:
+    """Return the share of the full size of each of `count` strides, ramped up and down.
+
+    Raises:
+        InvalidInput: ramp is not an integer >= 0.
+    """
+    if isinstance(ramp, bool) or int(ramp) != ramp or ramp < 0:
+        raise InvalidInput(f"ramp must be an integer >= 0, got {ramp!r}.")
+    return [min(1.0, (i + 1) / (ramp + 1), (count - i) / (ramp + 1)) for i in range(count)]

@@ -276,7 +276,9 @@ class FootstepPlan(Sequence[Footstep]):
         """
         step = self.swing_at(t)
         if step is None:
-            raise InvalidInput(f"no foot is in the air at t = {t:.3f} s, so none can be retargeted.")
+            raise InvalidInput(
+                f"no foot is in the air at t = {t:.3f} s, so none can be retargeted."
+            )
         land = step.land if land is None else float(land)
         if not land > t:
             raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")

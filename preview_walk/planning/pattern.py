@@ -29,7 +29,7 @@ class ComReference:
     """What the CoM should do at one instant, in the world.
 
     `com`, `velocity`, `acceleration` (3,), m; `zmp` (2,): the ZMP of that motion; `zmp_ref` (2,):
-    the plan's; `dcm` (2,): com + velocity / omega.
+    the plan's; `dcm` (2,): com + velocity / omega; `ground`: height (m) the ZMP lies on.
     """
 
     com: Array
@@ -38,6 +38,7 @@ class ComReference:
     zmp: Array
     zmp_ref: Array
     dcm: Array
+    ground: float
 
 
 class WalkingPattern:
@@ -71,6 +72,7 @@ class WalkingPattern:
         self._start = plan.start
         self._now: ComState = self.controller.initial_state(com[:2])
         self._z = float(com[2])
+        self._ground = self._z - com_height
         self.plan = plan
         self._next = self._step()
 
@@ -126,4 +128,5 @@ class WalkingPattern:
             state.zmp + shift,
             reference,
             np.array((x + vx / self.omega, y + vy / self.omega)),
+            self._ground,
         )

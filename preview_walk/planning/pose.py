@@ -128,7 +128,7 @@ def _is_rigid(pose: Array) -> bool:
     products = (a * a + d * d + g * g, b * b + e * e + h * h, a * b + d * e + g * h)
     cross = (d * h - g * e - c, g * b - a * h - f, a * e - d * b - i)
     error = max(abs(products[0] - 1), abs(products[1] - 1), abs(products[2]), *map(abs, cross))
-    return error < 1e-6 and last == [0.0, 0.0, 0.0, 1.0] and abs(x) + abs(y) + abs(z) < 1e9
+    return bool(error < 1e-6) and last == [0.0, 0.0, 0.0, 1.0] and abs(x) + abs(y) + abs(z) < 1e9
 
 
 def _describe(value: object) -> str:

@@ -1,12 +1,11 @@
 r"""Preview servo control of any discrete-time linear system, in the manner of `control.dlqr`.
 
 For a plant x(k+1) = A x(k) + B u(k), y(k) = C x(k) with n states, m inputs and p outputs whose
-reference r is known N samples ahead, the law that minimises
+reference r is known N samples ahead, with e = y - r, dx(k) = x(k) - x(k-1) and du alike,
 
-    J = sum_k  e(k)' Q_e e(k) + dx(k)' Q_x dx(k) + du(k)' R du(k),
-    e = y - r,   dx(k) = x(k) - x(k-1),   du(k) = u(k) - u(k-1)
+    J = sum_k  e(k)' Q_e e(k) + dx(k)' Q_x dx(k) + du(k)' R du(k)
 
-is, in increments,
+is least under the law
 
     du(k) = -G_I e(k) - G_x dx(k) - sum_{l=1..N} G_d(l) (r(k+l) - r(k+l-1))
 
@@ -20,7 +19,7 @@ The gains follow from the error-augmented system X = [e; dx],
     X(k+1) = Phi X(k) + G du(k) + I_r dr(k+1),
     Phi = [I  C A; 0  A],   G = [C B; B],   I_r = [-I; 0],
 
-and the stabilising solution P of its Riccati equation with Q = diag(Q_e, Q_x):
+and the stabilising solution P of its Riccati equation with diag(Q_e, Q_x) and R:
 
     [G_I  G_x] = W G' P Phi,   W = (R + G' P G)^-1,   A_c = Phi - G [G_I  G_x],
     G_d(l) = W G' (A_c')^(l-1) P I_r,   hence G_d(1) = -G_I.
@@ -42,9 +41,7 @@ from preview_walk.types import Array
 MIN_TIME_CONSTANTS = 2.0
 """A preview horizon must cover this many time constants of the slowest mode of its gains."""
 
-_RANK_TOLERANCE = 1e-10
-_RESIDUAL_TOLERANCE = 1e-8
-_SHARE_TOLERANCE = 1e-8
+_RANK_TOLERANCE, _RESIDUAL_TOLERANCE, _SHARE_TOLERANCE = 1e-10, 1e-8, 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,13 +55,11 @@ class PreviewDesign:
         R: (m, m) weight of the input increment du.
         integral_gain: (m, p) G_I.
         state_gain: (m, n) G_x.
-        preview_gain: (N, m, p) G_d; row l - 1 multiplies the reference l samples ahead.
-            Row 0 is -integral_gain.
+        preview_gain: (N, m, p) G_d; row l - 1 is for the reference l samples ahead.
         riccati: (p + n, p + n) P of the error-augmented system.
         closed_loop_matrix: (p + n, p + n) A_c of X = [e; dx]; all eigenvalues inside the circle.
         residual: Largest entry of the Riccati equation's residual over the largest entry of P.
-        slow_mode: Largest modulus of an eigenvalue of A_c that the preview gains contain: they
-            decay with slow_mode ** l.
+        slow_mode: Largest modulus of a mode of A_c in the preview gains: they decay with it.
 
     """
 
@@ -80,6 +75,11 @@ class PreviewDesign:
     residual: float
     slow_mode: float
 
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                _read_only(value)
+
     @property
     def dt(self) -> float:
         """Sampling time (s)."""
@@ -89,11 +89,6 @@ class PreviewDesign:
     def horizon(self) -> int:
         """N, the number of previewed samples."""
         return int(self.preview_gain.shape[0])
-
-    @property
-    def time_constant(self) -> float:
-        """Time constant of the slow mode (s)."""
-        return _time_constant(self.slow_mode, self.dt)
 
     @property
     def neglected(self) -> float:
@@ -107,8 +102,7 @@ class PreviewDesign:
         du(k) = -feedback [x(k); u(k-1)] + sum_{l=1..N} F(l) r(k+l), with F(l) = G_d(l+1) - G_d(l)
         and F(N) = -G_d(N). They sum to G_I; r(k) drops out because G_d(1) = -G_I.
         """
-        following = np.concatenate([self.preview_gain[1:], np.zeros_like(self.preview_gain[:1])])
-        return _read_only(following - self.preview_gain)
+        return _read_only(np.diff(self.preview_gain, axis=0, append=0.0))
 
     @cached_property
     def feedback(self) -> Array:
@@ -203,18 +197,9 @@ def preview_gains(
     for row in preview:
         row[:] = left @ column
         column = closed.T @ column
+    integral, state = gain[:, :p].copy(), gain[:, p:].copy()
     return PreviewDesign(
-        system,
-        Q_e=_read_only(q_e),
-        Q_x=_read_only(q_x),
-        R=_read_only(r),
-        integral_gain=_read_only(gain[:, :p].copy()),
-        state_gain=_read_only(gain[:, p:].copy()),
-        preview_gain=_read_only(preview),
-        riccati=_read_only(riccati),
-        closed_loop_matrix=_read_only(closed),
-        residual=residual,
-        slow_mode=slow,
+        system, q_e, q_x, r, integral, state, preview, riccati, closed, residual, slow
     )
 
 
@@ -234,9 +219,7 @@ def _check_system(system: control.StateSpace) -> None:
     if not all(np.isfinite(part).all() for part in (system.A, system.B, system.C, system.D)):
         raise InvalidInput("expected finite system matrices, got NaN or infinity in A, B, C or D.")
     if np.any(system.D):
-        raise InvalidInput(
-            "expected a system without direct feedthrough (D = 0), got a D that is not zero."
-        )
+        raise InvalidInput("expected a system with D = 0, got a direct feedthrough.")
 
 
 def _weight(name: str, value: ArrayLike, size: int, definite: bool = False) -> Array:
@@ -264,12 +247,11 @@ def _weight(name: str, value: ArrayLike, size: int, definite: bool = False) -> A
 
 def _lost_mode(a: Array, b: Array) -> str | None:
     """Return a mode on or outside the unit circle that b does not reach (Hautus), or None."""
-    scale = max(1.0, float(np.abs(a).max()))
+    smallest = _RANK_TOLERANCE * max(1.0, float(np.abs(a).max()))
     b = b / max(float(np.abs(b).max()), np.finfo(float).tiny)
     for mode in np.linalg.eigvals(a):
         pencil = np.hstack([a - mode * np.eye(len(a)), b])
-        smallest = np.linalg.svd(pencil, compute_uv=False)[-1]
-        if abs(mode) >= 1.0 - 1e-9 and smallest < _RANK_TOLERANCE * scale:
+        if abs(mode) >= 1.0 - 1e-9 and np.linalg.svd(pencil)[1][-1] < smallest:
             return f"z = {mode.real:.6g}" if mode.imag == 0.0 else f"z = {mode:.6g}"
     return None
 
@@ -286,8 +268,7 @@ def _check_solvable(a: Array, b: Array, phi: Array, g: Array, q: Array) -> None:
             f"{len(phi) - len(a)} outputs and {b.shape[1]} inputs with [A - I, B; C, 0] not of "
             "full row rank: a zero at z = 1 or too few inputs."
         )
-    values, vectors = np.linalg.eigh(q)
-    mode = _lost_mode(phi.T, vectors * np.sqrt(np.maximum(values, 0.0)))
+    mode = _lost_mode(phi.T, q)
     if mode is not None:
         raise InvalidInput(
             "expected weights Q_e and Q_x that make the system detectable, got a mode at "
@@ -300,19 +281,15 @@ def _slow_mode(closed: Array, left: Array, column: Array) -> float:
     values, vectors = np.linalg.eig(closed.T)
     try:
         shares = np.abs(np.linalg.solve(vectors, column)).max(axis=1)
-    except np.linalg.LinAlgError:  # a defective A_c: count every mode
+    except np.linalg.LinAlgError:  # defective: count every mode
         return float(np.abs(values).max())
     shares *= np.abs(left @ vectors).max(axis=0)
     present = shares > _SHARE_TOLERANCE * np.abs(left @ column).max()
     return float(np.abs(values[present]).max(initial=0.0))
 
 
-def _time_constant(mode: float, dt: float) -> float:
-    return -dt / math.log(mode) if mode > 0.0 else 0.0
-
-
 def _check_horizon(horizon: int, slow: float, dt: float) -> None:
-    constant = _time_constant(slow, dt)
+    constant = -dt / math.log(slow) if slow > 0.0 else 0.0
     shortest = math.ceil(MIN_TIME_CONSTANTS * constant / dt)
     if horizon < shortest:
         raise InvalidInput(

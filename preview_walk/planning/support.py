@@ -37,7 +37,7 @@ class Sole:
                 raise InvalidInput(f"{name} must be > 0 m, got {value}.")
 
     def corners(self, pose: Array) -> Array:
-        """Return the corners (4, 3) in the world, m: front left, rear left, rear right, front right.
+        """Return the corners (4, 3) in the world, m, counter-clockwise from the front left.
 
         Args:
             pose: sole pose (4, 4).

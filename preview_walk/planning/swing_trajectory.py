@@ -191,8 +191,14 @@ class Swing:
         else:
             vertical = (Quintic.between(t, land, z, (z1, 0.0, 0.0)),)
         return Swing(
-            self.start, end, self.lift, land, self.swing_height, self.ground_clearance,
-            plane, vertical,
+            self.start,
+            end,
+            self.lift,
+            land,
+            self.swing_height,
+            self.ground_clearance,
+            plane,
+            vertical,
         )
 
 
@@ -249,10 +255,8 @@ class SwingLegTrajectory:
             if values.shape != (3,) or not np.isfinite(values).all():
                 raise InvalidInput(f"{name} must be (x, y, z) in m, got {pos!r}.")
             ends.append(pose_at(float(values[0]), float(values[1]), 0.0, float(values[2])))
-        swing = Swing(
-            ends[0], ends[1], 0.0, duration, self.swing_height, self.ground_clearance
-        )
-        t = dt * np.arange(round(duration / dt) + 1)
+        swing = Swing(ends[0], ends[1], 0.0, duration, self.swing_height, self.ground_clearance)
+        t: Array = dt * np.arange(round(duration / dt) + 1, dtype=np.float64)
         samples = [swing.at(s) for s in t.tolist()]
         pos = np.array([pose[:3, 3] for pose, _, _ in samples])
         return t, pos, np.array([velocity[:3] for _, velocity, _ in samples])

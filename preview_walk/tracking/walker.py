@@ -47,7 +47,7 @@ class Walker:
         self,
         robot: Robot,
         plan: FootstepPlan,
-        com: Array,
+        q: Array,
         friction: float,
         gains: TrackingGains | None = None,
         solver: str = "osqp",
@@ -55,11 +55,12 @@ class Walker:
         self.robot = robot
         self.gains = TrackingGains() if gains is None else gains
         self.body = WholeBodyController(robot, self.gains, friction, solver)
+        self.body.update(q, np.zeros(robot.pin.nv))
         half = robot.soles["left"]
         self.swing_height = SWING_HEIGHT * robot.leg_length
         self.pattern = WalkingPattern(
             plan,
-            com,
+            self.body.dynamics.com.copy(),
             robot.com_height,
             Sole(half.half_length, half.half_width),
             momentum_model(robot),

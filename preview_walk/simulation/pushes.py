@@ -1,0 +1,83 @@
+"""Pushes: forces on the robot's body for a while, as a hand would."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+import mujoco
+import numpy as np
+
+from preview_walk.errors import InvalidInput
+from preview_walk.types import Array
+
+
+@dataclass(frozen=True)
+class Push:
+    """A constant force on a body.
+
+    Attributes:
+        t: when it begins (s).
+        duration: how long it lasts (s); the impulse is force times duration.
+        force: (x, y, z) in newtons, world axes.
+        body: name of the body pushed; the trunk where it is None.
+        point: where, in the body's own axes (m); the body's centre of mass where it is None.
+    """
+
+    t: float
+    duration: float
+    force: tuple[float, float, float]
+    body: str | None = None
+    point: tuple[float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        if not (isfinite(self.t) and self.t >= 0.0):
+            raise InvalidInput(f"a push must begin at a time >= 0 s, got {self.t}.")
+        if not (isfinite(self.duration) and self.duration > 0.0):
+            raise InvalidInput(f"a push must last > 0 s, got {self.duration}.")
+        for name in ("force", "point"):
+            vector = getattr(self, name)
+            if vector is None and name == "point":
+                continue
+            if len(vector) != 3 or not all(isfinite(x) for x in vector):
+                raise InvalidInput(f"the {name} of a push must be three finite numbers.")
+
+
+class Pusher:
+    """Applies pushes to a running simulation."""
+
+    def __init__(self, model: mujoco.MjModel, pushes: Sequence[Push], trunk: str) -> None:
+        self._model = model
+        self._pushes = []
+        for push in pushes:
+            name = trunk if push.body is None else push.body
+            body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+            if body < 0:
+                names = ", ".join(model.body(b).name for b in range(1, model.nbody))
+                raise InvalidInput(f"a push names the body '{name}'; the robot has {names}.")
+            self._pushes.append((push, body, np.array(push.force, dtype=float)))
+        self._idle = True
+        self._none = np.zeros(3)
+
+    def apply(self, t: float, data: mujoco.MjData) -> Array:
+        """Write the generalised forces of the pushes at time t (s); return their sum (3,) in N."""
+        active = [p for p in self._pushes if p[0].t <= t < p[0].t + p[0].duration]
+        if not active:
+            if not self._idle:
+                data.qfrc_applied[:] = 0.0
+                self._idle = True
+            return self._none
+        self._idle = False
+        data.qfrc_applied[:] = 0.0
+        total = np.zeros(3)
+        for push, body, force in active:
+            at = data.xipos[body]
+            if push.point is not None:
+                at = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(push.point)
+            mujoco.mj_applyFT(
+                self._model, data, force, np.zeros(3), np.array(at), body, data.qfrc_applied
+            )
+            total += force
+        return total

@@ -1,0 +1,292 @@
+"""A walk in MuJoCo: the loop that senses, ticks the controller, steps the physics and records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from preview_walk.errors import InvalidInput, PreviewWalkError
+from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.robots.contact_sensor import zmp
+from preview_walk.robots.load import visual_model
+from preview_walk.robots.robot import Robot
+from preview_walk.simulation.placing import standing_configuration
+from preview_walk.simulation.pushes import Push
+from preview_walk.simulation.record import Record
+from preview_walk.simulation.recorder import Recorder, package_versions
+from preview_walk.simulation.world import World, steps_per_tick
+from preview_walk.tracking.dynamics import FrameTerms
+from preview_walk.tracking.gains import TrackingGains
+from preview_walk.tracking.walker import CONTACT_FORCE, Walker
+from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
+
+FRICTION = 0.8
+"""Default Coulomb friction between sole and floor: rubber on dry floor."""
+
+STAND_AFTER = 1.0
+"""Time (s) that a run goes on after the plan's end, standing."""
+
+FALL_HEIGHT = 0.7
+"""The robot has fallen when its CoM is below this share of its height above the soles ..."""
+
+FALL_TILT = 0.9
+"""... or its torso leans further than this (rad)."""
+
+Progress = Callable[[float, float], None]
+"""Called now and then with the simulated time and its end (s)."""
+
+
+class Walk:
+    """A running walk; `simulate` is the short way for a plan known beforehand.
+
+    Args:
+        robot: from `load_robot`.
+        plan: the footsteps; the robot starts standing on its two stance soles.
+        physics_hz, control_hz: rates; the first is a multiple of the second.
+        friction: Coulomb friction between soles and floor; the controller knows it.
+        pushes: forces on the body.
+        seed: seeds whatever is random in the run; kept with the record.
+        gains: weights and gains of the tracker.
+        solver: "osqp" or another backend of qpsolvers.
+        visuals: run on the model with visual meshes, for the live viewer.
+
+    Raises:
+        InvalidInput: a rate or friction that cannot be, or a plan on which the robot cannot stand.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        plan: FootstepPlan,
+        *,
+        physics_hz: int = 1000,
+        control_hz: int = 500,
+        friction: float = FRICTION,
+        pushes: Sequence[Push] = (),
+        seed: int = 0,
+        gains: TrackingGains | None = None,
+        solver: str = "osqp",
+        visuals: bool = False,
+    ) -> None:
+        if not (np.isfinite(friction) and friction > 0.0):
+            raise InvalidInput(f"friction must be > 0, got {friction}.")
+        self.robot = robot
+        self._substeps = steps_per_tick(physics_hz, control_hz)
+        self._dt = 1.0 / control_hz
+        model = visual_model(robot) if visuals else robot.mj
+        self.world = World(robot, model, physics_hz, friction, pushes)
+        q = standing_configuration(robot, plan)
+        self.world.place(q)
+        self.walker = Walker(robot, plan, q, friction, gains, solver)
+        self._tick = 0
+        self._start = plan.start
+        self._wall = 0.0
+        self._fall: tuple[float, str] | None = None
+        self._interrupted = False
+        self._recorder = Recorder(
+            {
+                "robot": robot.name,
+                "title": robot.title,
+                "mass": robot.mass,
+                "gravity": 9.81,
+                "joint_names": list(robot.joint_names),
+                "tau_max": robot.effort.tolist(),
+                "control_hz": control_hz,
+                "physics_hz": physics_hz,
+                "com_height": robot.com_height,
+                "leg_length": robot.leg_length,
+                "step_width": robot.step_width,
+                "sole": [robot.soles["left"].half_length, robot.soles["left"].half_width],
+                "friction": friction,
+                "seed": seed,
+                "solver": solver,
+                "pushes": [
+                    {"t": p.t, "duration": p.duration, "force": list(p.force), "body": p.body}
+                    for p in pushes
+                ],
+                "versions": package_versions(),
+            },
+            {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
+        )
+
+    @property
+    def time(self) -> float:
+        """Simulated time (s); the plan's start at first."""
+        return self._start + self._tick * self._dt
+
+    @property
+    def plan(self) -> FootstepPlan:
+        """The footsteps walked by; assign others at any time."""
+        return self.walker.plan
+
+    @plan.setter
+    def plan(self, plan: FootstepPlan) -> None:
+        self.walker.plan = plan
+
+    @property
+    def fallen(self) -> bool:
+        """Whether the robot has fallen or its controller has stopped."""
+        return self._fall is not None
+
+    def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
+        """Go on to time `until` (s; default: until it has stood for a while after the plan).
+
+        Ends early at a fall; Ctrl-C ends it too and is noted in the record.
+        """
+        try:
+            while not self.fallen:
+                end = self.plan.end + STAND_AFTER if until is None else until
+                if self.time >= end - 1e-9:
+                    break
+                self.tick()
+                if progress is not None and self._tick % 25 == 0:
+                    progress(self.time, end)
+        except KeyboardInterrupt:
+            self._interrupted = True
+        return self
+
+    def tick(self) -> None:
+        """Do one control tick: sense, compute torques, record, step the physics."""
+        start = perf_counter()
+        t, world, walker = self.time, self.world, self.walker
+        world.sense()
+        before = perf_counter()
+        try:
+            torques = walker.tick(
+                t, world.q, world.v, {foot: float(world.wrench[foot][2]) for foot in FEET}
+            )
+        except PreviewWalkError as stop:
+            self._fall = (t, str(stop))
+            return
+        spent = perf_counter() - before
+        self._record(t, torques, spent)
+        self._check_fall(t)
+        world.step(torques, self._substeps)
+        self._tick += 1
+        self._wall += perf_counter() - start
+
+    def record(self, **settings: Any) -> Record:
+        """Return the record of the run so far."""
+        time, reason = self._fall if self._fall else (None, None)
+        return self._recorder.finish(
+            fell=self.fallen,
+            fall_time=time,
+            fall_reason=reason,
+            interrupted=self._interrupted,
+            wall_time=self._wall,
+            **settings,
+        )
+
+    def _check_fall(self, t: float) -> None:
+        dynamics = self.walker.body.dynamics
+        ground = max(dynamics.feet[foot].position[2] for foot in FEET)
+        height = float(dynamics.com[2] - ground)
+        tilt = float(np.arccos(np.clip(dynamics.torso.rotation[2, 2], -1.0, 1.0)))
+        if height < FALL_HEIGHT * self.robot.com_height:
+            low = f"{height:.2f} m of {self.robot.com_height:.2f} m"
+            self._fall = (t, f"the CoM sank to {low} above the feet")
+        elif tilt > FALL_TILT:
+            self._fall = (t, f"the torso leaned {np.degrees(tilt):.0f} degrees")
+
+    def _record(self, t: float, torques: Array, spent: float) -> None:
+        walker, world = self.walker, self.world
+        body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
+        assert reference is not None and body.solution is not None
+        left, right = dynamics.feet["left"], dynamics.feet["right"]
+        threshold = CONTACT_FORCE * walker.weight
+        on = [world.wrench[foot][2] > threshold for foot in FEET]
+        phase = (
+            (DOUBLE_SUPPORT if on[1] else LEFT_SUPPORT)
+            if on[0]
+            else (RIGHT_SUPPORT if on[1] else -1)
+        )
+        tilt = np.arccos(min(1.0, max(-1.0, float(dynamics.torso.rotation[2, 2]))))
+        self._recorder.plan(t, walker.plan)
+        self._recorder.write(
+            time=t,
+            q=world.q,
+            v=world.v,
+            tau=torques,
+            com=dynamics.com,
+            com_ref=reference.com,
+            com_velocity=dynamics.com_velocity,
+            com_velocity_ref=reference.velocity,
+            com_acceleration_ref=reference.acceleration,
+            dcm=dynamics.com[:2] + dynamics.com_velocity[:2] / walker.pattern.omega,
+            dcm_ref=reference.dcm,
+            zmp=zmp(
+                (world.wrench["left"], world.wrench["right"]),
+                (left.position, right.position),
+                reference.ground,
+            ),
+            zmp_ref=reference.zmp_ref,
+            zmp_preview=reference.zmp,
+            left_foot=_pose(left),
+            right_foot=_pose(right),
+            left_foot_ref=walker.feet["left"].pose,
+            right_foot_ref=walker.feet["right"].pose,
+            left_force=world.wrench["left"],
+            right_force=world.wrench["right"],
+            push=world.push,
+            torso_tilt=tilt,
+            phase=phase,
+            phase_ref=walker.plan.support(t),
+            qp_iterations=body.solution.iterations,
+            qp_status=0 if body.solution.solved else 1,
+            tick_time=spent,
+            terms_time=body.times.terms,
+            assembly_time=body.times.assembly,
+            qp_time=body.times.solve,
+        )
+
+
+def simulate(
+    robot: Robot,
+    plan: FootstepPlan,
+    *,
+    physics_hz: int = 1000,
+    control_hz: int = 500,
+    friction: float = FRICTION,
+    pushes: Sequence[Push] = (),
+    seed: int = 0,
+    gains: TrackingGains | None = None,
+    solver: str = "osqp",
+    progress: Progress | None = None,
+    viewer: bool = False,
+) -> Record:
+    """Walk a robot along a plan in MuJoCo and return the record.
+
+    The robot starts standing on the plan's stance soles and stands for `STAND_AFTER` after its
+    end. A fall or Ctrl-C ends the run early; the record says so. `viewer` opens MuJoCo's live
+    viewer and runs in real time; for the other arguments see `Walk`.
+    """
+    walk = Walk(
+        robot,
+        plan,
+        physics_hz=physics_hz,
+        control_hz=control_hz,
+        friction=friction,
+        pushes=pushes,
+        seed=seed,
+        gains=gains,
+        solver=solver,
+        visuals=viewer,
+    )
+    if viewer:
+        from preview_walk.simulation.viewer import run_in_viewer
+
+        run_in_viewer(walk, progress)
+    else:
+        walk.run(progress=progress)
+    return walk.record()
+
+
+def _pose(terms: FrameTerms) -> Array:
+    """Return the homogeneous pose (4, 4) of a frame."""
+    pose = np.eye(4)
+    pose[:3, :3] = terms.rotation
+    pose[:3, 3] = terms.position
+    return pose
