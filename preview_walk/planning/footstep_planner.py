@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import isfinite
+from numbers import Integral
 from typing import Literal
 
 from preview_walk.errors import InvalidInput
@@ -134,8 +135,7 @@ class FootstepPlanner:
             InvalidInput: n_steps or ramp is not an integer >= 0, or another argument is not
                 what is described here.
         """
-        if isinstance(n_steps, bool) or int(n_steps) != n_steps or n_steps < 0:
-            raise InvalidInput(f"n_steps must be an integer >= 0, got {n_steps!r}.")
+        count_of(n_steps, "n_steps")
         if not isfinite(turn):
             raise InvalidInput(f"turn must be finite (rad per step), got {turn}.")
         shares = ramp_shares(n_steps - 1, ramp)
@@ -228,12 +228,22 @@ class FootstepPlanner:
         return "double", min(1.0, max(0.0, (t - since) / (until - since)))
 
 
+def count_of(value: int, name: str) -> int:
+    """Return the number.
+
+    Raises:
+        InvalidInput: it is not an integer >= 0.
+    """
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
+        raise InvalidInput(f"{name} must be an integer >= 0, got {value!r}.")
+    return int(value)
+
+
 def ramp_shares(count: int, ramp: int) -> list[float]:
     """Return the share of the full size of each of `count` strides, ramped up and down.
 
     Raises:
         InvalidInput: ramp is not an integer >= 0.
     """
-    if isinstance(ramp, bool) or int(ramp) != ramp or ramp < 0:
-        raise InvalidInput(f"ramp must be an integer >= 0, got {ramp!r}.")
-    return [min(1.0, (i + 1) / (ramp + 1), (count - i) / (ramp + 1)) for i in range(count)]
+    size = count_of(ramp, "ramp") + 1
+    return [min(1.0, (i + 1) / size, (count - i) / size) for i in range(count)]

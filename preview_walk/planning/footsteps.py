@@ -1,8 +1,7 @@
 """Footsteps as values, and the immutable plan that every reference is a function of.
 
-A plan starts on two standing soles and holds the swing steps in time order.  To change the walk,
-make another plan (`FootstepPlan.replace_after`); nothing else remembers the future.  All look-ups
-bisect, so a plan of an hour is as quick to query as one of ten seconds.
+To change a walk, make another plan (`FootstepPlan.replace_after`); nothing else remembers the
+future.  All look-ups bisect, so a plan of an hour is as quick to query as one of ten seconds.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ _LAB_KEYS = ("foot", "pos", "time", "type")
 
 @dataclass(frozen=True, eq=False)
 class Footstep:
-    """One sole on the ground: where it is put down, and when the foot is in the air before that.
+    """One sole on the ground: where it is put down, and when the foot flies there.
 
     Attributes:
         foot: "left" or "right".
@@ -110,7 +109,7 @@ class FootstepPlan(Sequence[Footstep]):
             alternate, or a step does not lift after the step before it has landed.
     """
 
-    __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_settle")
+    __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_settle", "_steps")
 
     def __init__(self, steps: Iterable[Footstep], settle: float = SETTLE_TIME) -> None:
         items = tuple(steps)
@@ -137,22 +136,18 @@ class FootstepPlan(Sequence[Footstep]):
         cls, left: Array, right: Array, start: float = 0.0, settle: float = SETTLE_TIME
     ) -> FootstepPlan:
         """Return the plan without steps: both soles (poses, (4, 4)) stand from `start` (s) on."""
-        return cls(
-            (
-                Footstep("left", left, start, start, "stance"),
-                Footstep("right", right, start, start, "stance"),
-            ),
-            settle,
-        )
+        soles = zip(FEET, (left, right), strict=True)
+        return cls([Footstep(foot, pose, start, start, "stance") for foot, pose in soles], settle)
 
     def _fill(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...], settle: float) -> None:
         """Set the fields; `kept` was checked before, only `new` is checked here."""
         self._items = kept + new
+        self._steps = self._items[2:]
         self._settle = settle
         for index in range(max(2, len(kept)), len(self._items)):
             self._check(index)
-        self._lifts = [s.lift for s in self._items[2:]]
-        self._lands = [s.land for s in self._items[2:]]
+        self._lifts = [s.lift for s in self._steps]
+        self._lands = [s.land for s in self._steps]
         self._by_foot: dict[str, tuple[list[float], list[Footstep]]] = {}
         for foot in FEET:
             own = [s for s in self._items if s.foot == foot]
@@ -169,15 +164,12 @@ class FootstepPlan(Sequence[Footstep]):
                 f"got a lift at {step.lift:.3f} s."
             )
         pause = step.lift - before.land
-        if number > 1 and step.foot == before.foot and not self._is_stand(pause):
+        if number > 1 and step.foot == before.foot and not self.is_stand(pause):
             raise InvalidInput(
                 f"step {number} must be taken by the {other(step.foot)} foot, because step "
                 f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "
                 f"(a foot may go twice after a stand of {2 * self._settle:.3f} s)."
             )
-
-    def _is_stand(self, pause: float) -> bool:
-        return pause >= 2.0 * self._settle - 1e-9
 
     def __len__(self) -> int:
         return len(self._items)
@@ -195,7 +187,7 @@ class FootstepPlan(Sequence[Footstep]):
     @property
     def steps(self) -> tuple[Footstep, ...]:
         """The swing steps, in time order."""
-        return self._items[2:]
+        return self._steps
 
     @property
     def settle(self) -> float:
@@ -222,7 +214,7 @@ class FootstepPlan(Sequence[Footstep]):
     def swing_at(self, t: float) -> Footstep | None:
         """Return the step in the air at time t (s), lift <= t < land, or None."""
         index = bisect_right(self._lifts, t) - 1
-        return self._items[2 + index] if index >= 0 and t < self._lands[index] else None
+        return self._steps[index] if index >= 0 and t < self._lands[index] else None
 
     def sole(self, foot: Foot, t: float) -> Array:
         """Return the (4, 4) sole pose where `foot` stands at time t (s).
@@ -239,15 +231,20 @@ class FootstepPlan(Sequence[Footstep]):
     def next_landing(self, t: float) -> Footstep | None:
         """Return the first step that lands after time t (s), or None."""
         index = bisect_right(self._lands, t)
-        return self._items[2 + index] if index < len(self._lands) else None
+        return self._steps[index] if index < len(self._steps) else None
+
+    def next_lift(self, t: float) -> Footstep | None:
+        """Return the first step that lifts after time t (s), or None."""
+        index = bisect_right(self._lifts, t)
+        return self._steps[index] if index < len(self._steps) else None
 
     def lifted(self, t: float) -> tuple[Footstep, ...]:
         """Return the swing steps with lift <= t (s): those that can no longer be unmade."""
-        return self._items[2 : 2 + bisect_right(self._lifts, t)]
+        return self._steps[: bisect_right(self._lifts, t)]
 
     def is_stand(self, pause: float) -> bool:
         """Return whether a double support of `pause` seconds is a stand (>= 2 settle)."""
-        return self._is_stand(pause)
+        return pause >= 2.0 * self._settle - 1e-9
 
     def replace_after(self, t: float, steps: Iterable[Footstep]) -> FootstepPlan:
         """Return the plan with the steps lifted by time t (s), followed by `steps`.
@@ -257,9 +254,8 @@ class FootstepPlan(Sequence[Footstep]):
         """
         new = tuple(steps)
         if new and new[0].lift <= t:
-            raise InvalidInput(
-                f"a new step must lift after t = {t:.3f} s, got a lift at {new[0].lift:.3f} s."
-            )
+            lift = new[0].lift
+            raise InvalidInput(f"a new step must lift after t = {t:.3f} s, got {lift:.3f} s.")
         kept = self._items[: 2 + bisect_right(self._lifts, t)]
         return self._with(kept, new)
 
@@ -282,15 +278,15 @@ class FootstepPlan(Sequence[Footstep]):
         land = step.land if land is None else float(land)
         if not land > t:
             raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
-        index = 2 + bisect_right(self._lifts, t) - 1
-        delay = land - step.land
-        later = tuple(
-            replace(s, lift=s.lift + delay, land=s.land + delay) for s in self._items[index + 1 :]
-        )
+        index = 1 + bisect_right(self._lifts, t)
+        later = self._items[index + 1 :]
+        if land != step.land:
+            delay = land - step.land
+            later = tuple(replace(s, lift=s.lift + delay, land=s.land + delay) for s in later)
         return self._with(self._items[:index], (replace(step, pose=pose, land=land), *later))
 
     def since(self, t: float) -> FootstepPlan:
-        """Return the plan without the far past: an endless walk keeps a plan of a few steps.
+        """Return the plan without the far past, for endless walks.
 
         Keeps the two steps landed last before t and all later ones; every look-up and reference
         at times >= t is that of the whole plan.
@@ -300,16 +296,14 @@ class FootstepPlan(Sequence[Footstep]):
             return self
         index = 2 + first
         start = self._items[index - 1].land
-        stance = tuple(
-            Footstep(foot, self.sole(foot, start), start, start, "stance") for foot in FEET
-        )
+        soles = [(foot, self.sole(foot, start)) for foot in FEET]
+        stance = tuple(Footstep(foot, pose, start, start, "stance") for foot, pose in soles)
         return self._with(stance, self._items[index:])
 
     def transformed(self, pose: Array) -> FootstepPlan:
         """Return the same walk elsewhere: every sole pose S becomes pose @ S, times unchanged."""
         frame = as_pose(pose, "pose")
-        moved = tuple(replace(s, pose=frame @ s.pose) for s in self._items)
-        return self._with(moved, ())
+        return self._with(tuple(replace(s, pose=frame @ s.pose) for s in self._items), ())
 
     def _with(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...]) -> FootstepPlan:
         plan = object.__new__(FootstepPlan)

@@ -10,10 +10,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import atan2, ceil, cos, hypot, isfinite, sin
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.planning.footstep_planner import STAND_TIME, FootstepPlanner, Stride, ramp_shares
+from preview_walk.planning.footstep_planner import (
+    STAND_TIME,
+    FootstepPlanner,
+    Stride,
+    count_of,
+    ramp_shares,
+)
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import (
@@ -56,14 +63,16 @@ def straight(
     bounds = _limits(planner, limits)
     reach = bounds.forward if distance > 0.0 else bounds.backward
 
-    def build(count: int) -> FootstepPlan:
+    def build(count: int, width: float) -> FootstepPlan:
         shares = ramp_shares(count, ramp)
-        strides = [Stride(distance * share / sum(shares)) for share in shares]
+        strides = [Stride(distance * share / sum(shares), width=width) for share in shares]
         if max((abs(s.forward) for s in strides), default=0.0) > abs(planner.step_length) + _CLOSE:
             raise InvalidInput("a stride is longer than the planner's step_length.")
         return planner.walk([*strides, Stride()], start, start_foot, bounds)
 
-    return _fewest(_count(distance, min(abs(planner.step_length), reach)), build)
+    return _fewest(
+        _count(distance, min(abs(planner.step_length), reach)), build, [planner.step_width]
+    )
 
 
 def sideways(
@@ -80,11 +89,11 @@ def sideways(
     bounds = _limits(planner, limits)
     reach = min(abs(planner.step_length), bounds.max_width - planner.step_width)
 
-    def build(count: int) -> FootstepPlan:
-        pair = [Stride(left=distance / count), Stride()]
+    def build(count: int, width: float) -> FootstepPlan:
+        pair = [Stride(left=distance / count, width=width), Stride(width=width)]
         return planner.walk(pair * count, start, "left" if distance > 0.0 else "right", bounds)
 
-    return _fewest(_count(distance, reach), build)
+    return _fewest(_count(distance, reach), build, [planner.step_width])
 
 
 def on_the_spot(
@@ -95,8 +104,7 @@ def on_the_spot(
     limits: GaitLimits | None = None,
 ) -> FootstepPlan:
     """Return `n_steps` steps that land where they lifted."""
-    if isinstance(n_steps, bool) or int(n_steps) != n_steps or n_steps < 0:
-        raise InvalidInput(f"n_steps must be an integer >= 0, got {n_steps!r}.")
+    count_of(n_steps, "n_steps")
     return planner.walk([Stride()] * n_steps, start, start_foot, _limits(planner, limits))
 
 
@@ -108,16 +116,22 @@ def turn_in_place(
 ) -> FootstepPlan:
     """Return a turn by `angle` (rad, left positive, any number of turns) about the midfeet point.
 
-    The foot on the side of the turn opens, the other closes.
+    The foot on the side of the turn opens, the other closes.  Where the soles would collide the
+    feet stand wider while they turn, and two more steps bring them back.
     """
     _finite(angle, "angle", "rad")
     bounds = _limits(planner, limits)
+    first: Foot = "left" if angle > 0.0 else "right"
+    widths = np.arange(planner.step_width, max(bounds.max_width, planner.step_width) + 0.01, 0.02)
 
-    def build(count: int) -> FootstepPlan:
-        pair = [Stride(turn=angle / count), Stride()]
-        return planner.walk(pair * count, start, "left" if angle > 0.0 else "right", bounds)
+    def build(count: int, width: float) -> FootstepPlan:
+        pair = [Stride(turn=angle / count, width=width), Stride(width=width)]
+        closing = [Stride()] * 2 if count and width > planner.step_width else []
+        return planner.walk([*pair * count, *closing], start, first, bounds)
 
-    return _fewest(_count(angle, bounds.turn_out), build)
+    # Wider where that saves steps: the fewest steps first, the narrowest stance among them.
+    count = _count(angle, 0.8 * bounds.turn_out)
+    return _fewest(count, build, widths.tolist())
 
 
 def arc(
@@ -146,15 +160,20 @@ def arc(
     bounds = _limits(planner, limits)
     first: Foot = start_foot or ("left" if angle > 0.0 else "right")
 
-    def build(count: int) -> FootstepPlan:
+    def build(count: int, width: float) -> FootstepPlan:
         shares = ramp_shares(count, ramp)
         turns = [angle * share / sum(shares) for share in shares]
         if max((abs(t) for t in turns), default=0.0) * radius > abs(planner.step_length) + _CLOSE:
             raise InvalidInput("a stride is longer than the planner's step_length.")
-        strides = [Stride(forward=2.0 * radius * sin(0.5 * abs(t)), turn=t) for t in turns]
+        chords = [2.0 * radius * sin(0.5 * abs(turn)) for turn in turns]
+        strides = [Stride(c, turn=t, width=width) for c, t in zip(chords, turns, strict=True)]
         return planner.walk([*strides, Stride()], start, first, bounds)
 
-    return _fewest(_count(radius * angle, min(abs(planner.step_length), bounds.forward)), build)
+    return _fewest(
+        _count(radius * angle, min(abs(planner.step_length), bounds.forward)),
+        build,
+        [planner.step_width],
+    )
 
 
 def to_pose(
@@ -268,14 +287,20 @@ def _count(total: float, size: float) -> int:
     return ceil(abs(total) / size - _CLOSE) if total else 0
 
 
-def _fewest(count: int, build: Callable[[int], FootstepPlan]) -> FootstepPlan:
-    """Return the plan with the fewest strides, from `count` on, that the limits allow."""
+def _fewest(
+    count: int, build: Callable[[int, float], FootstepPlan], widths: Sequence[float]
+) -> FootstepPlan:
+    """Return the plan with the fewest strides, from `count` on, that the limits allow.
+
+    Of several widths the first one that they allow.
+    """
     refusal: InvalidInput | None = None
     for n in range(count, 2 * count + _MORE_STEPS):
-        try:
-            return build(n)
-        except InvalidInput as error:
-            refusal = refusal or error
+        for width in widths:
+            try:
+                return build(n, width)
+            except InvalidInput as error:
+                refusal = refusal or error
     raise refusal or InvalidInput("no walk was built.")
 
 

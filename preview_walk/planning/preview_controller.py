@@ -216,20 +216,16 @@ class PreviewController:
         if t is not None:
             self._check_times(np.asarray(t, dtype=float), len(reference))
         # The law does not care where the origin is; numbers near zero lose fewer digits.
-        origin = axes[:, :1].copy()
-        start, jerk = self._start(x0, axes[:, 0])
-        start[:, 0] -= origin[:, 0]
-        x, u = self._filter.run((axes - origin)[:, None], start, jerk[:, None])
-        com = x[:, 0] + origin
-        rows = (
-            com,
-            x[:, 1],
-            x[:, 2],
-            np.concatenate([jerk[:, None], u[:, 0, :-1]], axis=1),
-            com - self._lever * x[:, 2],
+        origin = axes[:, 0].copy()
+        start = self._start(x0, origin)
+        start[:, 0] -= origin
+        states = self._filter.run((axes - origin[:, None])[:, None], start)
+        com, velocity, acceleration, jerk = np.ascontiguousarray(states.T).reshape(
+            (4, *reference.shape)
         )
-        shaped = (np.ascontiguousarray(row.T).reshape(reference.shape) for row in rows)
-        return ComTrajectory(self.dt, *shaped)
+        com += origin if len(axes) == 2 else origin[0]
+        zmp = com - self._lever * acceleration
+        return ComTrajectory(self.dt, com, velocity, acceleration, jerk, zmp)
 
     def generate_com_trajectory(
         self,
@@ -246,16 +242,16 @@ class PreviewController:
         result = self.trajectory(zmp_ref, x0, t=t)
         return result.com, result.velocity
 
-    def _start(self, x0: ArrayLike | ComState | None, first: Array) -> tuple[Array, Array]:
-        """Return the start (axes, 3) and the jerk (axes,) before it."""
+    def _start(self, x0: ArrayLike | ComState | None, first: Array) -> Array:
+        """Return [c, c', c'', jerk before] for each axis, (axes, 4)."""
         axes = len(first)
-        start = np.zeros((axes, 3))
         if isinstance(x0, ComState):
             if axes != 2:
                 raise InvalidInput(
                     "expected a ComState to start a zmp_ref of shape (N, 2), got one axis."
                 )
-            return x0.array[:3].T.copy(), x0.array[3].copy()
+            return np.array(x0.array[:4].T)
+        start = np.zeros((axes, 4))
         values = first if x0 is None else np.asarray(x0, dtype=float)
         shapes = ((), (1,), (3,), (1, 3)) if axes == 1 else ((2,), (2, 3))
         if values.shape not in shapes or not np.isfinite(values).all():
@@ -264,8 +260,8 @@ class PreviewController:
         if values.shape in ((), (1,), (2,)):
             start[:, 0] = values
         else:
-            start[:] = values
-        return start, np.zeros(axes)
+            start[:, :3] = values
+        return start
 
     def _check_times(self, t: Array, length: int) -> None:
         if t.shape != (length,):

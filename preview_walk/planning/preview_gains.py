@@ -266,7 +266,7 @@ def _check_solvable(a: Array, b: Array, phi: Array, g: Array, q: Array) -> None:
         raise InvalidInput(
             "expected outputs that can all be held at any constant value, got "
             f"{len(phi) - len(a)} outputs and {b.shape[1]} inputs with [A - I, B; C, 0] not of "
-            "full row rank: a zero at z = 1 or too few inputs."
+            "full row rank: a zero at z = 1, dependent outputs or too few inputs."
         )
     mode = _lost_mode(phi.T, q)
     if mode is not None:

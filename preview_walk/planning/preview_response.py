@@ -1,9 +1,10 @@
 """What a preview servo does to a whole reference, in time linear in its length.
 
-The preview action w(k) = sum_l F(l) r(k+l) is a correlation (FFT, overlap-save); the loop
-xi(k+1) = A xi(k) + B w(k) is then a cascade of first-order filters in the Schur basis of A. The
-basis is unitary, so the cascade stays exact where eigenvectors nearly coincide, as they do in
-the cart-table's loop (a double pole at exp(-omega dt) as the jerk gets cheap).
+The preview action w(k) = sum_l F(l) r(k+l) is a correlation (FFT, overlap-save). The loop
+z(k+1) = A z(k) + B w(k) then runs in blocks of samples: inside a block its response is one
+matrix product, from block to block it is a recursion of the same form. No eigenvectors are
+needed, which nearly coincide in the cart-table's loop (a double pole at exp(-omega dt) as the
+jerk gets cheap).
 """
 
 from __future__ import annotations
@@ -13,14 +14,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
-from scipy.linalg import matrix_balance, schur
-from scipy.signal import lfilter
 
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.preview_gains import PreviewDesign
 from preview_walk.types import Array
+
+_BLOCK = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,28 +42,62 @@ class Tracking:
     error: Array
 
 
+class Recursion:
+    """z(k+1) = A z(k) + B w(k) over long sequences, a block of samples per matrix product."""
+
+    def __init__(self, a: Array, b: Array, levels: int = 2) -> None:
+        """Prepare A (n, n) and B (n, m); each level shortens the loop in Python by `_BLOCK`."""
+        n, m = b.shape
+        self._a, self._b = a, b
+        self._inner: Recursion | None = None
+        if levels == 0:
+            return
+        powers = [np.eye(n)]
+        for _ in range(_BLOCK):
+            powers.append(a @ powers[-1])
+        impulse = [power @ b for power in powers]
+        response = np.zeros((_BLOCK, n, _BLOCK, m))
+        for row in range(_BLOCK):
+            for column in range(row):
+                response[row, :, column] = impulse[row - 1 - column]
+        self._from_start = np.concatenate(powers[:-1]).T.copy()
+        self._from_input = response.reshape(_BLOCK * n, _BLOCK * m).T.copy()
+        self._to_next = np.concatenate([block.T for block in impulse[-2::-1]])
+        self._inner = Recursion(powers[-1], np.eye(n), levels - 1)
+
+    def run(self, w: Array, start: Array) -> Array:
+        """Return z (batch, M, n) for w (batch, M, m); z[:, 0] is start (batch, n)."""
+        batch, length, inputs = w.shape
+        if self._inner is None:
+            z = np.empty((batch, length, start.shape[1]))
+            source = w @ self._b.T
+            for k in range(length):
+                z[:, k] = start
+                start = start @ self._a.T + source[:, k]
+            return z
+        blocks = -(-length // _BLOCK)
+        padded = np.zeros((batch, blocks * _BLOCK, inputs))
+        padded[:, :length] = w
+        rows = padded.reshape(batch, blocks, _BLOCK * inputs)
+        starts = self._inner.run(rows @ self._to_next, start)
+        z = rows @ self._from_input
+        z += starts @ self._from_start
+        sequence: Array = z.reshape(batch, blocks * _BLOCK, -1)[:, :length]
+        return sequence
+
+
 class PreviewFilter:
     """A preview design made ready to run over references; make one, use it often."""
 
     def __init__(self, design: PreviewDesign) -> None:
-        """Factor the closed loop of a design and transform its gains, once."""
-        loop, system = design.closed_loop, design.system
-        horizon = design.horizon
-        self._horizon = horizon
-        self._n = system.nstates
+        """Transform the gains of a design and prepare its loop, once."""
+        self._horizon = design.horizon
         # About eight horizons to a block is where FFT work per sample is smallest.
-        self._block = int(next_fast_len(max(8 * horizon, 512), real=True))
+        self._block = int(next_fast_len(max(8 * self._horizon, 512), real=True))
         self._gain_spectrum = np.conj(
             rfft(np.moveaxis(design.window_gain, 0, -1), self._block, axis=-1)
         )
-        # Balanced first: x and u differ in size by orders of magnitude.
-        balanced, (scale, _) = matrix_balance(loop.A, permute=False, separate=True)
-        triangle, basis = schur(balanced, output="complex")
-        self._triangle = triangle
-        self._to_modes = basis.conj().T / scale
-        self._from_modes = basis * scale[:, None]
-        self._input = self._to_modes @ loop.B
-        self._feedback = design.feedback
+        self._recursion = Recursion(design.closed_loop.A, design.closed_loop.B)
 
     def preview_action(self, reference: Array) -> Array:
         """Return w (batch, m, M) for a reference (batch, p, M) held at its last value."""
@@ -77,32 +112,12 @@ class PreviewFilter:
         action = irfft(spectrum, self._block, axis=-1)[..., :valid]
         return np.asarray(action.reshape(batch, -1, blocks * valid)[..., :length])
 
-    def run(self, reference: Array, x0: Array, u_previous: Array) -> tuple[Array, Array]:
-        """Return x (batch, n, M) and u (batch, m, M) for reference (batch, p, M).
+    def run(self, reference: Array, start: Array) -> Array:
+        """Return the loop's states [x(k); u(k-1)], (batch, M, n + m).
 
-        x0 (batch, n) is the state at sample 0, u_previous (batch, m) the input held up to it;
-        u[..., k] is held from sample k to k + 1.
+        reference is (batch, p, M), start (batch, n + m) the state at sample 0.
         """
-        action = self.preview_action(reference)
-        modes = self._modes(action, np.concatenate([x0, u_previous], axis=1))
-        state = np.real(self._from_modes @ modes)
-        u = state[:, self._n :] - self._feedback @ state + action
-        return state[:, : self._n], u
-
-    def _modes(self, action: Array, start: Array) -> NDArray[np.complex128]:
-        """Return xi in the Schur basis, (batch, n + m, M), last mode first."""
-        triangle = self._triangle
-        batch, _, length = action.shape
-        modes = np.empty((batch, len(triangle), length), dtype=complex)
-        source = np.empty((batch, length), dtype=complex)
-        first = start @ self._to_modes.T
-        for i in range(len(triangle) - 1, -1, -1):
-            source[:, 0] = first[:, i]
-            source[:, 1:] = (self._input[i] @ action)[:, :-1]
-            for j in range(i + 1, len(triangle)):
-                source[:, 1:] += triangle[i, j] * modes[:, j, :-1]
-            modes[:, i] = lfilter([1.0], [1.0, -triangle[i, i]], source, axis=-1)
-        return modes
+        return self._recursion.run(np.swapaxes(self.preview_action(reference), 1, 2), start)
 
 
 def track(
@@ -128,9 +143,12 @@ def track(
     r = _reference(reference, system.noutputs)
     start = _vector("x0", x0, np.zeros(n))
     before = _vector("u_previous", u_previous, np.zeros(m))
-    x, u = PreviewFilter(design).run(r.T[None], start[None], before[None])
-    y = x[0].T @ system.C.T
-    return Tracking(x=x[0].T, u=u[0].T, y=y, error=y - r)
+    servo = PreviewFilter(design)
+    state = servo.run(r.T[None], np.append(start, before)[None])[0]
+    action = servo.preview_action(r.T[None])[0].T
+    x, u = state[:, :n], state[:, n:] - state @ design.feedback.T + action
+    y = x @ system.C.T
+    return Tracking(x=x, u=u, y=y, error=y - r)
 
 
 def preview_effect(design: PreviewDesign, reference: ArrayLike, horizons: Iterable[int]) -> Array:

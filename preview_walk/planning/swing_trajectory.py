@@ -1,14 +1,13 @@
 """The swing foot: piecewise quintics from lift to landing, at rest at both ends.
 
-x, y and the Z-Y-X angles follow one quintic each; the height follows two, up to an apex halfway
-through the swing and down again.  All derivatives up to the acceleration are zero at lift and
-landing and continuous between, also through `Swing.retarget`.
+x, y and the Z-Y-X angles follow one quintic each; the height follows two, over an apex halfway.
+Derivatives up to the acceleration are continuous, also through `Swing.retarget`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, isfinite, sin
 
 import numpy as np
@@ -21,8 +20,11 @@ from preview_walk.types import Array
 State = tuple[float, float, float]
 """Position, velocity and acceleration of one coordinate."""
 
-REST_SHARE = 0.49
+RISEN_SHARE = 0.48
 """Share of its rise that the sole has made when a tenth of the horizontal travel is done."""
+
+DIP = 1e-3
+"""A retargeted foot may come this much (m) below its landing before it lands."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class Quintic:
 
 @dataclass(frozen=True, eq=False)
 class Swing:
-    """The path of one sole from lift to landing.
+    """The path of one sole from lift to landing, as a value.
 
     Attributes:
         start: sole pose at lift, (4, 4).
@@ -75,6 +77,9 @@ class Swing:
         ground_clearance: height (m) of the sole centre above the straight line from one sole
             centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
             apex is raised where `swing_height` alone does not give it.
+
+    Raises:
+        InvalidInput: a pose that is none, times out of order, or a negative height.
     """
 
     start: Array
@@ -107,16 +112,13 @@ class Swing:
             for p, q in zip(first, _near(last, first), strict=True)
         )
         z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
-        apex, middle = self._apex(z0, z1), 0.5 * (self.lift + self.land)
-        vertical = (
-            Quintic.between(self.lift, middle, (z0, 0.0, 0.0), (apex, 0.0, 0.0)),
-            Quintic.between(middle, self.land, (apex, 0.0, 0.0), (z1, 0.0, 0.0)),
-        )
+        middle = 0.5 * (self.lift + self.land)
+        vertical = _over(self.lift, (z0, 0.0, 0.0), middle, self._apex(z0, z1), self.land, z1)
         object.__setattr__(self, "_plane", plane)
         object.__setattr__(self, "_vertical", vertical)
 
     def _apex(self, z0: float, z1: float) -> float:
-        return max(z0, z1) + max(self.swing_height, self.ground_clearance / REST_SHARE)
+        return max(z0, z1) + max(self.swing_height, self.ground_clearance / RISEN_SHARE)
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
         """Return pose (4, 4), velocity (6,) and acceleration (6,) of the sole at time t (s).
@@ -162,7 +164,15 @@ class Swing:
     def retarget(self, t: float, pose: Array, land: float | None = None) -> Swing:
         """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
 
-        Position, velocity and acceleration are continuous at t.
+        Position, velocity and acceleration are continuous at t.  A foot that still rises goes
+        over an apex high enough for the new sole too; one that comes down goes to it directly.
+        Where a later landing would make it overshoot or dip into the ground, it finishes its old
+        motion and waits there, above the ground.
+
+        Args:
+            t: now, s, lift <= t < land.
+            pose: sole pose (4, 4) of the new landing.
+            land: new landing time, s, > t; None keeps it.
 
         Raises:
             InvalidInput: t is not within the swing, or `land` is not after t.
@@ -172,34 +182,57 @@ class Swing:
             raise InvalidInput(
                 f"t must be within the swing, {self.lift:.3f} s to {self.land:.3f} s, got {t}."
             )
-        if not land > t:
+        if not (isfinite(land) and land > t):
             raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
         end = as_pose(pose, "pose of the landing")
+        plane, vertical = self._new_plane(t, end, land), self._new_vertical(t, end, land)
+        return replace(self, end=end, land=land, _plane=plane, _vertical=vertical)
+
+    def _new_plane(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
         now = tuple(q.at(t) for q in self._plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
-        plane = tuple(
-            Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
+        dx, dy = goal[0] - now[0][0], goal[1] - now[1][0]
+        arrive, before = land, self._plane[0].end
+        # A quintic from speed v with distance d to go overshoots when v T > 2.5 d, about.
+        closing = now[0][1] * dx + now[1][1] * dy
+        if t < before < land and closing * (land - t) > 2.0 * (dx * dx + dy * dy):
+            arrive = before
+        return tuple(
+            Quintic.between(t, arrive, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
         )
-        z, z1 = self._height(t).at(t), float(end[2, 3])
-        middle = 0.5 * (self.lift + land)
-        if middle - t > 0.2 * (land - t):
-            apex = self._apex(float(self.start[2, 3]), z1)
-            vertical: tuple[Quintic, ...] = (
-                Quintic.between(t, middle, z, (apex, 0.0, 0.0)),
-                Quintic.between(middle, land, (apex, 0.0, 0.0), (z1, 0.0, 0.0)),
-            )
-        else:
-            vertical = (Quintic.between(t, land, z, (z1, 0.0, 0.0)),)
-        return Swing(
-            self.start,
-            end,
-            self.lift,
-            land,
-            self.swing_height,
-            self.ground_clearance,
-            plane,
-            vertical,
-        )
+
+    def _new_vertical(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
+        z0, z1 = float(self.start[2, 3]), float(end[2, 3])
+        piece = self._height(t)
+        now, target = piece.at(t), sum(piece.coefficients)
+        apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
+        if len(self._vertical) == 2 and t < piece.end < self.land and target > old - 1e-9:
+            top = t + (piece.end - t) * (land - t) / (self.land - t)
+            if apex > target:
+                top = max(top, t + 0.35 * (land - t))
+            return _over(t, now, top, max(apex, target), land, z1)
+        direct = Quintic.between(t, land, now, (z1, 0.0, 0.0))
+        floor = min(z1, now[0]) - DIP
+        dips = any(direct.at(t + 0.1 * k * (land - t))[0] < floor for k in range(1, 10))
+        if not (dips and t < piece.end < land):
+            return (direct,)
+        # Ending the old descent higher is the old descent plus a rising quintic: never lower.
+        share = (land - piece.end) / (land - t)
+        wait = target
+        if piece.end >= self.land:
+            wait = max(target, z1) + 0.5 * share * share * max(0.0, now[0] - max(target, z1))
+        return _over(t, now, piece.end, wait, land, z1)
+
+
+def _over(
+    t: float, now: State, middle: float, height: float, land: float, z1: float
+) -> tuple[Quintic, Quintic]:
+    """Return the two quintics that rest at `height` at time `middle` and at z1 at time `land`."""
+    rest = (height, 0.0, 0.0)
+    return (
+        Quintic.between(t, middle, now, rest),
+        Quintic.between(middle, land, rest, (z1, 0.0, 0.0)),
+    )
 
 
 def swing_of(
@@ -208,7 +241,7 @@ def swing_of(
     swing_height: float = 0.05,
     ground_clearance: float = 0.02,
 ) -> Swing:
-    """Return the swing of one step of a plan."""
+    """Return the swing of one step of a plan, from where its foot stands; see `Swing`."""
     return Swing(
         plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
     )
@@ -229,7 +262,9 @@ def _near(goal: Sequence[float], now: Sequence[float]) -> tuple[float, ...]:
 class SwingLegTrajectory:
     """The walking lab's name for a sampled swing between two sole positions.
 
-    Attributes: see `Swing`.
+    Attributes:
+        swing_height: height (m) of the apex above the higher of the two soles.
+        ground_clearance: least height (m) in the middle part; see `Swing`.
     """
 
     swing_height: float = 0.05
@@ -245,18 +280,21 @@ class SwingLegTrajectory:
             end_pos: sole centre (x, y, z) at landing, m.
             duration: time (s) in the air.
             dt: sample time (s).
+
+        Raises:
+            InvalidInput: a time that is not > 0, or a position that is not three numbers.
         """
         for name, value in (("duration", duration), ("dt", dt)):
             if not (isfinite(value) and value > 0.0):
                 raise InvalidInput(f"{name} must be > 0 s, got {value}.")
         ends = []
-        for name, pos in (("start_pos", start_pos), ("end_pos", end_pos)):
-            values = np.asarray(pos, dtype=np.float64)
+        for name, point in (("start_pos", start_pos), ("end_pos", end_pos)):
+            values = np.asarray(point, dtype=np.float64)
             if values.shape != (3,) or not np.isfinite(values).all():
-                raise InvalidInput(f"{name} must be (x, y, z) in m, got {pos!r}.")
+                raise InvalidInput(f"{name} must be (x, y, z) in m, got {point!r}.")
             ends.append(pose_at(float(values[0]), float(values[1]), 0.0, float(values[2])))
         swing = Swing(ends[0], ends[1], 0.0, duration, self.swing_height, self.ground_clearance)
         t: Array = dt * np.arange(round(duration / dt) + 1, dtype=np.float64)
         samples = [swing.at(s) for s in t.tolist()]
-        pos = np.array([pose[:3, 3] for pose, _, _ in samples])
+        pos: Array = np.array([pose[:3, 3] for pose, _, _ in samples])
         return t, pos, np.array([velocity[:3] for _, velocity, _ in samples])

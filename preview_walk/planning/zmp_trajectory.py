@@ -23,6 +23,15 @@ from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.support import Sole
 from preview_walk.types import Array, other
 
+__all__ = [
+    "TRANSFER_TIME",
+    "ZMP_MARGIN",
+    "Sole",
+    "ZMPReference",
+    "ZMPTrajectoryGenerator",
+    "zmp_reference",
+]
+
 TRANSFER_TIME = 0.1
 """A crossing of the ZMP from foot to foot lasts this long (s) or longer where the soles allow."""
 

@@ -131,6 +131,12 @@ class Walk:
         """Whether the robot has fallen or its controller has stopped."""
         return self._fall is not None
 
+    @property
+    def finished(self) -> bool:
+        """Whether the plan is walked and the robot has stood for a while after it, or it fell."""
+        over = self.time >= self.plan.end + STAND_AFTER - 1e-9
+        return self.fallen or self._interrupted or over
+
     def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
         """Go on to time `until` (s; default: until it has stood for a while after the plan).
 

@@ -13,7 +13,9 @@ class TrackingGains:
     robot; a frequency f (rad/s) is a critically damped spring, stiffness f^2 and damping 2 f.
 
     - `dcm`: rate (1/s) at which the error of the DCM decays; CoM height: `height` (rad/s).
-    - `com_weight`, `foot_weight`, `torso_weight`, `posture_weight`; `momentum_weight`.
+    - `com_weight`, `foot_weight`, `torso_weight`, `momentum_weight`: of these tasks.
+    - `posture_weight`: of every joint's posture; `trunk_weight`: of the joints between pelvis and
+      torso.
     - `wrench_weight`: regularises the contact wrenches (per (100 N)^2).
     """
 
@@ -27,5 +29,6 @@ class TrackingGains:
     foot_weight: float = 10.0
     torso_weight: float = 3.0
     posture_weight: float = 0.002
+    trunk_weight: float = 0.2
     momentum_weight: float = 0.0
     wrench_weight: float = 1e-3

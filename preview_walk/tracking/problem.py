@@ -159,7 +159,7 @@ class TickProblem:
         diagonal = np.concatenate(
             [
                 np.full(6, BASE_WEIGHT),
-                np.full(n, posture.weight),
+                posture.weight,
                 np.full(self.nf, wrench_weight),
                 np.ones(self.ny),
             ]

@@ -128,13 +128,14 @@ class AngularMomentumTask:
 class PostureTask:
     """Joints are drawn to `posture` (n,): what the other tasks leave free.
 
-    It is the QP's own diagonal, not rows: `target` is the wanted joint acceleration (n,). The
-    joints listed in `loose` are only damped: legs, whose configuration follows from feet, CoM and
-    torso, so that a pull towards the posture would only bend these tasks.
+    It is the QP's own diagonal, not rows: `weight` (n,) holds a weight per joint and `target` the
+    wanted joint acceleration (n,). The joints listed in `loose` are only damped: legs, whose
+    configuration follows from feet, CoM and torso, so that a pull towards the posture would only
+    bend these tasks.
     """
 
     def __init__(
-        self, posture: Array, weight: float, frequency: float, loose: Sequence[int] = ()
+        self, posture: Array, weight: Array, frequency: float, loose: Sequence[int] = ()
     ) -> None:
         self.posture = posture
         self.weight = weight

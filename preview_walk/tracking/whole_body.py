@@ -49,7 +49,11 @@ class WholeBodyController:
             for foot in FEET
             for joint in leg_joints(robot.pin, robot.soles[foot].frame)
         ]
-        self.posture = PostureTask(robot.posture[7:], gains.posture_weight, gains.posture, legs)
+        weight = np.full(robot.pin.nv - 6, gains.posture_weight)
+        # The trunk is one body: its joints keep the pelvis with the torso, whose task is upright.
+        trunk = [int(j) for j in robot.pin.supports[robot.pin.frames[robot.torso].parentJoint]]
+        weight[[robot.pin.joints[j].idx_v - 6 for j in trunk if j > 1]] = gains.trunk_weight
+        self.posture = PostureTask(robot.posture[7:], weight, gains.posture, legs)
         self.times = TickTimes()
         self.solution: Solution | None = None
         self._solver = solver

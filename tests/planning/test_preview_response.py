@@ -11,7 +11,7 @@ from scipy.sparse.linalg import spsolve
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.cart_table import cart_table
 from preview_walk.planning.preview_gains import PreviewDesign, preview_gains
-from preview_walk.planning.preview_response import preview_effect, track
+from preview_walk.planning.preview_response import Recursion, preview_effect, track
 from preview_walk.types import Array
 
 KAJITA = cart_table(0.814, 0.005)
@@ -118,6 +118,18 @@ def test_a_plant_with_a_delay() -> None:
     x, _ = optimum(system, weights, reference[:, None], x0)
     run = track(preview_gains(system, *weights, 200), reference, x0)
     np.testing.assert_allclose(run.x[:80], x[:80], atol=1e-8)
+
+
+@pytest.mark.parametrize("length", [1, 2, 15, 16, 17, 256, 1000])
+def test_recursion_in_blocks_is_the_recursion(length: int) -> None:
+    rng = np.random.default_rng(length)
+    a, b = 0.4 * rng.normal(size=(4, 4)), rng.normal(size=(4, 2))
+    w, z = rng.normal(size=(3, length, 2)), rng.normal(size=(3, 4))
+    result = Recursion(a, b).run(w, z)
+    assert result.shape == (3, length, 4)
+    for k in range(length):
+        np.testing.assert_allclose(result[:, k], z, atol=1e-11)
+        z = z @ a.T + w[:, k] @ b.T
 
 
 def test_tracking_is_the_closed_loop_driven_by_the_preview_action() -> None:
