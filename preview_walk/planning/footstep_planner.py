@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import isfinite
-from numbers import Integral
+from operator import index
 from typing import Literal
 
 from preview_walk.errors import InvalidInput
@@ -234,9 +234,13 @@ def count_of(value: int, name: str) -> int:
     Raises:
         InvalidInput: it is not an integer >= 0.
     """
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
+    try:
+        count = -1 if isinstance(value, bool) else index(value)
+    except TypeError:
+        count = -1
+    if count < 0:
         raise InvalidInput(f"{name} must be an integer >= 0, got {value!r}.")
-    return int(value)
+    return count
 
 
 def ramp_shares(count: int, ramp: int) -> list[float]:

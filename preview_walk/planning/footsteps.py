@@ -53,7 +53,6 @@ class Footstep:
     type: Literal["stance", "swing_end"] = "swing_end"
 
     def __post_init__(self) -> None:
-        """Check every field; keep the pose read-only."""
         if self.foot not in FEET:
             raise InvalidInput(f"foot must be 'left' or 'right', got {self.foot!r}.")
         if self.type not in ("stance", "swing_end"):
@@ -64,8 +63,7 @@ class Footstep:
         if not (isfinite(lift) and isfinite(land) and ordered):
             allowed = "lift == land" if self.type == "stance" else "lift < land"
             raise InvalidInput(
-                f"a {self.type} footstep needs finite times (s) with {allowed}, "
-                f"got lift {self.lift} and land {self.land}."
+                f"a {self.type} footstep needs finite times with {allowed}, got {lift} s, {land} s."
             )
         object.__setattr__(self, "lift", lift)
         object.__setattr__(self, "land", land)
@@ -86,7 +84,7 @@ class Footstep:
         return self.land
 
     def __getitem__(self, key: str) -> Any:
-        """Return the walking lab's dictionary keys: foot, pos, time, type."""
+        """Return one of the walking lab's keys: foot, pos, time, type."""
         if key not in _LAB_KEYS:
             raise KeyError(f"a footstep has the keys {', '.join(_LAB_KEYS)}, not {key!r}")
         return getattr(self, key)
@@ -95,10 +93,10 @@ class Footstep:
 class FootstepPlan(Sequence[Footstep]):
     """An immutable walk: two standing soles, then swing steps in time order.
 
-    `plan[0]` and `plan[1]` are the left and right soles stood on at `start`; `plan[2:]` (also
-    `steps`) are the swing steps.  Steps are numbered from 1 in messages.  Between a landing and
-    the next lift both feet stand; a pause of at least `2 * settle` is a *stand*, in which the ZMP
-    comes to rest between the feet and after which either foot may go first.
+    `plan[0]` and `plan[1]` are the left and right soles stood on at `start`, `plan[2:]` (also
+    `steps`) the swing steps, numbered from 1 in messages.  A pause of at least `2 * settle`
+    between a landing and the next lift is a *stand*: the ZMP comes to rest between the feet, and
+    either foot may go first.
 
     Args:
         steps: the two stance soles (in either order) and then the swing steps.
@@ -123,10 +121,8 @@ class FootstepPlan(Sequence[Footstep]):
                 f"a plan must begin with one left and one right stance footstep, got {found}."
             )
         if stance[0].land != stance[1].land:
-            raise InvalidInput(
-                "both stance footsteps of a plan must have the same time, "
-                f"got {stance[0].land} s and {stance[1].land} s."
-            )
+            both = f"{stance[0].land} s and {stance[1].land} s"
+            raise InvalidInput(f"both stance footsteps must have the same time, got {both}.")
         if stance[0].foot == "right":
             items = (items[1], items[0], *items[2:])
         self._fill((), items, settle)
@@ -217,10 +213,7 @@ class FootstepPlan(Sequence[Footstep]):
         return self._steps[index] if index >= 0 and t < self._lands[index] else None
 
     def sole(self, foot: Foot, t: float) -> Array:
-        """Return the (4, 4) sole pose where `foot` stands at time t (s).
-
-        While the foot swings this is where it lifted from; before the start, its first sole.
-        """
+        """Return where `foot` stands at time t (s), (4, 4); while it swings, where it lifted."""
         lands, own = self._by_foot[foot]
         return own[max(0, bisect_right(lands, t) - 1)].pose
 
@@ -239,7 +232,7 @@ class FootstepPlan(Sequence[Footstep]):
         return self._steps[index] if index < len(self._steps) else None
 
     def lifted(self, t: float) -> tuple[Footstep, ...]:
-        """Return the swing steps with lift <= t (s): those that can no longer be unmade."""
+        """Return the swing steps with lift <= t (s), which can no longer be unmade."""
         return self._steps[: bisect_right(self._lifts, t)]
 
     def is_stand(self, pause: float) -> bool:
@@ -256,8 +249,7 @@ class FootstepPlan(Sequence[Footstep]):
         if new and new[0].lift <= t:
             lift = new[0].lift
             raise InvalidInput(f"a new step must lift after t = {t:.3f} s, got {lift:.3f} s.")
-        kept = self._items[: 2 + bisect_right(self._lifts, t)]
-        return self._with(kept, new)
+        return self._with(self._items[: 2 + bisect_right(self._lifts, t)], new)
 
     def retarget(self, t: float, pose: Array, land: float | None = None) -> FootstepPlan:
         """Return the plan in which the foot in the air at time t (s) lands at `pose`.
@@ -265,7 +257,7 @@ class FootstepPlan(Sequence[Footstep]):
         Args:
             t: now; some foot must be in the air.
             pose: new sole pose of that step, (4, 4).
-            land: new landing time (s, > t); later steps move by the same time.  None keeps it.
+            land: new landing time (s, > t), None keeps it; later steps move by the same time.
 
         Raises:
             InvalidInput: no foot is in the air at t, or `land` is not after t.
@@ -286,10 +278,9 @@ class FootstepPlan(Sequence[Footstep]):
         return self._with(self._items[:index], (replace(step, pose=pose, land=land), *later))
 
     def since(self, t: float) -> FootstepPlan:
-        """Return the plan without the far past, for endless walks.
+        """Return the plan without the steps landed before the last two: for endless walks.
 
-        Keeps the two steps landed last before t and all later ones; every look-up and reference
-        at times >= t is that of the whole plan.
+        Every look-up and reference at times >= t is that of the whole plan.
         """
         first = bisect_right(self._lands, t) - 2
         if first <= 0:
@@ -302,8 +293,8 @@ class FootstepPlan(Sequence[Footstep]):
 
     def transformed(self, pose: Array) -> FootstepPlan:
         """Return the same walk elsewhere: every sole pose S becomes pose @ S, times unchanged."""
-        frame = as_pose(pose, "pose")
-        return self._with(tuple(replace(s, pose=frame @ s.pose) for s in self._items), ())
+        by = as_pose(pose, "pose")
+        return self._with(tuple(replace(s, pose=by @ s.pose) for s in self._items), ())
 
     def _with(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...]) -> FootstepPlan:
         plan = object.__new__(FootstepPlan)

@@ -11,17 +11,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from preview_walk.planning.cart_table import GRAVITY
+from preview_walk.planning.com_height import LegGeometry, wanted_heights
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.preview_controller import ComState, PreviewController
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.zmp_trajectory import Sole, zmp_reference
-from preview_walk.types import Array
+from preview_walk.types import FEET, Array
 
 PLANNING_DT = 0.005
 """Time (s) between two steps of the preview controller: Kajita's T."""
 
 PREVIEW_TIME = 1.6
 """Preview horizon (s): Kajita's 320 samples of 5 ms."""
+
+HEIGHT_EFFORT = 3e-3
+"""Weight of the vertical jerk's increments: the height follows its steps within about 0.3 s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +50,7 @@ class WalkingPattern:
 
     Attributes:
         plan: the footsteps; assign another one at any time.
-        com_height: height (m) of the CoM above the soles.
+        legs: how high the CoM can be.
         omega: natural frequency sqrt(g / com_height) of the pendulum (1/s).
     """
 
@@ -54,16 +58,16 @@ class WalkingPattern:
         self,
         plan: FootstepPlan,
         com: Array,
-        com_height: float,
+        legs: LegGeometry,
         sole: Sole,
         momentum: MomentumModel,
         swing_height: float,
     ) -> None:
         """Start at the plan's start with the CoM at rest at `com` (3,), in m."""
-        self.com_height = com_height
-        self.omega = (GRAVITY / com_height) ** 0.5
+        self.legs = legs
+        self.omega = (GRAVITY / legs.com_height) ** 0.5
         self.controller = PreviewController(
-            momentum.effective_height(com_height), PLANNING_DT, PREVIEW_TIME
+            momentum.effective_height(legs.com_height), PLANNING_DT, PREVIEW_TIME
         )
         self._sole = sole
         self._momentum = momentum
@@ -71,10 +75,11 @@ class WalkingPattern:
         self._tick = 0
         self._start = plan.start
         self._now: ComState = self.controller.initial_state(com[:2])
-        self._z = float(com[2])
-        self._ground = self._z - com_height
+        # A cart-table without height is a triple integrator: preview control of the height.
+        self._lift = PreviewController(1e-9, PLANNING_DT, PREVIEW_TIME, r=HEIGHT_EFFORT)
+        self._now_z: ComState = self._lift.initial_state((com[2], 0.0))
         self.plan = plan
-        self._next = self._step()
+        self._next, self._next_z = self._step()
 
     @property
     def plan(self) -> FootstepPlan:
@@ -93,25 +98,35 @@ class WalkingPattern:
         self._reference = self._zmp.at(times)
         self._shift = swing_zmp_shift(plan, times, self._momentum, self._swing_height)
         self._samples = self._reference - self._shift
+        self._heights = np.zeros((len(times), 2))
+        self._heights[:, 0] = wanted_heights(plan, times, self.legs)
 
-    def _step(self) -> ComState:
-        """Return the state one planning tick after the present one."""
+    def _step(self) -> tuple[ComState, ComState]:
+        """Return the horizontal and the vertical state one planning tick after the present."""
+        return (
+            self.controller.step(self._now, self._window(self._samples)),
+            self._lift.step(self._now_z, self._window(self._heights)),
+        )
+
+    def _window(self, samples: Array) -> Array:
+        """Return the preview window (n, 2) of samples; past their end the last one holds."""
         first = self._tick - self._first + 1
         n = self.controller.n_preview
-        window = self._samples[first : first + n]
-        if len(window) < n:  # past the plan's end: the last ZMP holds
-            last = np.broadcast_to(self._samples[-1], (n - len(window), 2))
+        window = samples[first : first + n]
+        if len(window) < n:
+            last = np.broadcast_to(samples[-1], (n - len(window), 2))
             window = np.concatenate([window, last])
-        return self.controller.step(self._now, window)
+        return window
 
     def at(self, t: float) -> ComReference:
         """Return the CoM reference at time t (s); times must not go back."""
         while t >= self._start + (self._tick + 1) * PLANNING_DT - 1e-9:
             self._tick += 1
-            self._now = self._next
-            self._next = self._step()
+            self._now, self._now_z = self._next, self._next_z
+            self._next, self._next_z = self._step()
         tau = min(max(t - self._start - self._tick * PLANNING_DT, 0.0), PLANNING_DT)
         state = self.controller.interpolate(self._now, self._next, tau)
+        vertical = self._lift.interpolate(self._now_z, self._next_z, tau)
         x, y = state.com.tolist()
         vx, vy = state.velocity.tolist()
         ax, ay = state.acceleration.tolist()
@@ -122,11 +137,11 @@ class WalkingPattern:
         reference = (1.0 - share) * self._reference[here] + share * self._reference[there]
         shift = (1.0 - share) * self._shift[here] + share * self._shift[there]
         return ComReference(
-            np.array((x, y, self._z)),
-            np.array((vx, vy, 0.0)),
-            np.array((ax, ay, 0.0)),
+            np.array((x, y, vertical.com[0])),
+            np.array((vx, vy, vertical.velocity[0])),
+            np.array((ax, ay, vertical.acceleration[0])),
             state.zmp + shift,
             reference,
             np.array((x + vx / self.omega, y + vy / self.omega)),
-            self._ground,
+            0.5 * sum(float(self._plan.sole(foot, t)[2, 3]) for foot in FEET),
         )

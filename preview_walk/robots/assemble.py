@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import mujoco
 
-from preview_walk.errors import RobotError
 from preview_walk.robots.contact_sensor import add_wrench_sensor
-from preview_walk.robots.description import SoleFact
+from preview_walk.robots.soles import SolePatch
+from preview_walk.robots.urdf import quaternion
 from preview_walk.types import Foot
 
 SOLE_THICKNESS = 0.02
@@ -20,28 +20,26 @@ def sole_name(foot: Foot) -> str:
     return f"{foot}_sole"
 
 
-def assemble(spec: mujoco.MjSpec, soles: Mapping[Foot, SoleFact]) -> None:
+def assemble(
+    spec: mujoco.MjSpec, soles: Mapping[Foot, SolePatch], efforts: Mapping[str, float]
+) -> None:
     """Add floor, light, soles and one motor per joint to a spec, in place.
 
-    The soles and the floor are the only geoms that touch. Joints with an effort limit get a motor
-    of that limit; joints without one stay passive. Raises `RobotError` for an unknown sole body.
+    The soles and the floor are the only geoms that touch. Joints named in `efforts` get a motor of
+    that torque limit (N·m) and of their name; the others stay passive.
     """
     for geom in spec.geoms:
         geom.contype, geom.conaffinity, geom.group = 0, 0, 2
     for foot, sole in soles.items():
         body = spec.body(sole.body)
-        if body is None:
-            raise RobotError(
-                f"the {foot} sole names the body '{sole.body}', which the model lacks; "
-                f"it has {', '.join(b.name for b in spec.bodies[1:])}"
-            )
-        x, y, z = sole.center
-        body.add_site(name=sole_name(foot), pos=sole.center, group=4)
+        quat = quaternion(sole.rotation)
+        body.add_site(name=sole_name(foot), pos=sole.position, quat=quat, group=4)
         body.add_geom(
             name=sole_name(foot),
             type=mujoco.mjtGeom.mjGEOM_BOX,
-            size=(sole.size[0] / 2, sole.size[1] / 2, SOLE_THICKNESS / 2),
-            pos=(x, y, z + SOLE_THICKNESS / 2),
+            size=(sole.half_length, sole.half_width, SOLE_THICKNESS / 2),
+            pos=sole.position + sole.rotation[:, 2] * SOLE_THICKNESS / 2,
+            quat=quat,
             mass=0.0,
             contype=1,
             conaffinity=2,
@@ -52,12 +50,12 @@ def assemble(spec: mujoco.MjSpec, soles: Mapping[Foot, SoleFact]) -> None:
         add_wrench_sensor(spec, sole_name(foot))
     floor(spec)
     for joint in spec.joints:
-        low, high = joint.actfrcrange
-        if joint.type != mujoco.mjtJoint.mjJNT_FREE and high > low:
+        effort = efforts.get(joint.name, 0.0)
+        if joint.type != mujoco.mjtJoint.mjJNT_FREE and effort > 0.0:
             motor = spec.add_actuator(name=joint.name, target=joint.name)
             motor.trntype = mujoco.mjtTrn.mjTRN_JOINT
             motor.set_to_motor()
-            motor.ctrlrange, motor.ctrllimited = (low, high), 1
+            motor.ctrlrange, motor.ctrllimited = (-effort, effort), 1
 
 
 def floor(spec: mujoco.MjSpec) -> None:
@@ -81,6 +79,16 @@ def floor(spec: mujoco.MjSpec) -> None:
         contype=2,
         conaffinity=1,
         condim=3,
+        castshadow=False,
+    )
+    spec.add_texture(
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=(0.93, 0.95, 0.97),
+        rgb2=(0.62, 0.71, 0.82),
+        width=64,
+        height=384,
     )
     spec.worldbody.add_light(
         name="sun", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, pos=(0, 0, 4), dir=(0.3, 0.4, -1)

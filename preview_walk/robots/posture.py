@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pinocchio as pin
@@ -13,6 +15,27 @@ from preview_walk.types import FEET, Array, Foot
 STRETCH = 0.92
 """Hip-to-sole distance of the walking posture over that of the stretched leg."""
 
+LATERAL = 0.8
+"""Least cosine between a joint's axis and the lateral direction for it to bend the leg."""
+
+MARGIN = 0.05
+"""Distance (rad, m) kept from joint limits by joints that the posture does not name."""
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A leg's Pinocchio joints, pelvis first; the three that bend it are hip, knee and ankle.
+
+    `bend` is the sign of a flexing knee's angle; `length` (m) the sum of thigh, shank and foot.
+    """
+
+    joints: tuple[int, ...]
+    hip: int
+    knee: int
+    ankle: int
+    bend: float
+    length: float
+
 
 def leg_joints(model: pin.Model, frame: int) -> list[int]:
     """Return the joints from the floating base (exclusive) to a frame, root first."""
@@ -20,88 +43,133 @@ def leg_joints(model: pin.Model, frame: int) -> list[int]:
     return [j for j in chain if j > 1]
 
 
-def leg_length(model: pin.Model, frame: int) -> float:
-    """Return the distance from the hip to the sole with the leg stretched (m).
+def find_leg(
+    model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lateral: Array
+) -> Leg:
+    """Return a leg by its joints: those about the `lateral` direction (3,) bend it.
 
-    The hip is where the leg's first three joint axes pass closest (its third joint); the length is
-    the sum of the distances between the successive pitch-like joints below it, knee and ankle,
-    which no configuration can exceed.
+    The leg's length is the longest distance from hip to sole: between the axes of hip, knee and
+    ankle, seen from the side, and from the ankle to the sole plane. `q` (nq,) is any posture in
+    which the leg's side is `lateral` in world axes.
+
+    Raises `RobotError` where fewer than three joints bend the leg.
     """
     data = model.createData()
-    pin.forwardKinematics(model, data, pin.neutral(model))
-    pin.updateFramePlacements(model, data)
-    points = [data.oMi[j].translation for j in leg_joints(model, frame)]
-    points = [*points[2:], data.oMf[frame].translation]
-    return float(sum(np.linalg.norm(b - a) for a, b in zip(points, points[1:], strict=False)))
+    pin.framesForwardKinematics(model, data, q)
+    axes = _axes(model, q)
+    turns = {j: float(axes[:, model.joints[j].idx_v] @ lateral) for j in joints}
+    bending = [j for j in joints if abs(turns[j]) > LATERAL]
+    if len(bending) < 3:
+        names = ", ".join(model.names[j] for j in bending) or "none"
+        raise RobotError(
+            f"the leg from '{model.names[joints[0]]}' to '{model.names[joints[-1]]}' has "
+            f"{len(bending)} joint(s) about the lateral axis ({names}); "
+            "expected hip, knee and ankle"
+        )
+    hip, knee, ankle = bending[:3]
+    side = np.eye(3) - np.outer(lateral, lateral)
+    points = [side @ data.oMi[j].translation for j in (hip, knee, ankle)]
+    sole_pose = data.oMf[sole]
+    drop = sole_pose.rotation[:, 2] @ (data.oMi[ankle].translation - sole_pose.translation)
+    length = sum(float(np.linalg.norm(b - a)) for a, b in pairwise(points)) + float(drop)
+    return Leg(joints, hip, knee, ankle, float(np.sign(turns[knee])), length)
 
 
-def walking_posture(
-    model: pin.Model,
-    soles: Mapping[Foot, int],
-    torso: int,
-    angles: Mapping[str, float],
-    stretch: float = STRETCH,
-) -> Array:
-    """Return the walking posture (nq,) by inverse kinematics.
+def _axes(model: pin.Model, q: Array) -> Array:
+    """Return every degree of freedom's axis of rotation (3, nv) in the world, 0 for slides."""
+    return np.array(pin.computeJointJacobians(model, model.createData(), q)[3:])
 
-    `soles` and `torso` are Pinocchio frames; `angles` (rad) fix the joints they name. The legs
-    follow from: soles flat, parallel, level and as far apart as in the zero configuration; hips
-    `stretch` times the leg's length above the soles; pelvis upright; CoM over the midpoint of the
-    soles, which lies at the origin.
 
-    Raises `RobotError` for an unknown joint name or where no such posture exists.
+def knees_forward(model: pin.Model, legs: Mapping[Foot, Leg]) -> float:
+    """Return 1 for knees that point forward when they bend, as ours, -1 for a bird's.
+
+    Both knees together decide, by their limits; without limits they bend as ours.
     """
-    q = pin.neutral(model)
-    for name, angle in angles.items():
+    room = 0.0
+    for leg in legs.values():
+        at = model.joints[leg.knee].idx_q
+        low, high = model.lowerPositionLimit[at], model.upperPositionLimit[at]
+        if np.isfinite(low + high):
+            room += leg.bend * float(low + high)
+    return 1.0 if room >= 0.0 else -1.0
+
+
+def resting(model: pin.Model, q: Array, named: Mapping[str, float]) -> Array:
+    """Return a configuration (nq,) with the named joints at their angles, the rest inside limits.
+
+    Raises `RobotError` for an unknown joint name.
+    """
+    q = np.array(q)
+    low, high = model.lowerPositionLimit[7:], model.upperPositionLimit[7:]
+    margin = np.minimum(MARGIN, 0.1 * np.where(np.isfinite(high - low), high - low, np.inf))
+    q[7:] = np.clip(q[7:], low + margin, high - margin)
+    for name, angle in named.items():
         if not model.existJointName(name):
             raise RobotError(
                 f"the posture names the joint '{name}', which the model lacks; "
                 f"it has {', '.join(model.names[2:])}"
             )
         q[model.joints[model.getJointId(name)].idx_q] = angle
+    return q
+
+
+def walking_posture(
+    model: pin.Model,
+    q: Array,
+    soles: Mapping[Foot, int],
+    legs: Mapping[Foot, Leg],
+    width: float,
+    stretch: float = STRETCH,
+) -> Array:
+    """Return the walking posture (nq,) by inverse kinematics, the robot facing x.
+
+    `q` (nq,) holds the upright base orientation and all angles but the legs'. These follow from:
+    `soles` (Pinocchio frames) flat, level, facing forward and `width` (m) apart; hips `stretch`
+    times the leg's length above the soles; base upright; CoM over the midpoint of the soles, which
+    lies at the origin.
+
+    Raises `RobotError` where no such posture exists.
+    """
+    q = np.array(q)
+    upright = pin.Quaternion(q[3:7]).toRotationMatrix()
     data = model.createData()
-    pin.framesForwardKinematics(model, data, q)
-    width = float(
-        (data.oMf[soles["left"]].translation - data.oMf[soles["right"]].translation)[1]
-    )
-    legs = {foot: leg_joints(model, soles[foot]) for foot in FEET}
-    free = list(range(6)) + [model.joints[j].idx_v for foot in FEET for j in legs[foot]]
-    knees = [model.joints[legs[foot][3]] for foot in FEET]
-    for knee in knees:  # start bent the way the knee bends
-        q[knee.idx_q] = 0.5 * np.sign(
-            model.lowerPositionLimit[knee.idx_q] + model.upperPositionLimit[knee.idx_q]
-        )
-    height = stretch * leg_length(model, soles["left"])
+    forward = knees_forward(model, legs)
+    free = list(range(6)) + [model.joints[j].idx_v for f in FEET for j in legs[f].joints]
+    lateral = np.sign(_axes(model, q)[1])
+    for leg in legs.values():
+        for joint, angle in ((leg.hip, -0.4), (leg.knee, 0.8), (leg.ankle, -0.4)):
+            bend = model.joints[joint]
+            q[bend.idx_q] = forward * lateral[bend.idx_v] * angle
+    height = stretch * min(leg.length for leg in legs.values())
     target = {
         foot: pin.SE3(np.eye(3), np.array([0.0, side * width / 2, 0.0]))
         for foot, side in (("left", 1.0), ("right", -1.0))
     }
-    for _ in range(100):
-        error, jacobian = _residual(model, data, q, soles, legs, target, height)
+    for _ in range(200):
+        error, jacobian = _residual(model, data, q, upright, soles, legs, target, height)
         if np.abs(error).max() < 1e-10:
-            break
+            return np.asarray(q)
         step = np.zeros(model.nv)
         step[free] = np.linalg.lstsq(jacobian[:, free], -error, rcond=1e-8)[0]
         step *= min(1.0, 0.3 / np.abs(step).max())
         q = pin.integrate(model, q, step)
-    else:
-        raise RobotError(
-            f"no walking posture found: the soles stay {np.abs(error).max():.3g} m or rad from "
-            f"flat, level and {height:.3f} m below the hips"
-        )
-    return np.asarray(q)
+    raise RobotError(
+        f"no walking posture found: the soles stay {np.abs(error).max():.3g} m or rad from "
+        f"flat, level and {height:.3f} m below the hips"
+    )
 
 
 def _residual(
     model: pin.Model,
     data: pin.Data,
     q: Array,
+    upright: Array,
     soles: Mapping[Foot, int],
-    legs: Mapping[Foot, list[int]],
+    legs: Mapping[Foot, Leg],
     target: Mapping[Foot, pin.SE3],
     height: float,
 ) -> tuple[Array, Array]:
-    """Return the posture's residual (17,) and its Jacobian (17, nv)."""
+    """Return the posture's residual (18,) and its Jacobian (18, nv)."""
     pin.computeJointJacobians(model, data, q)
     pin.updateFramePlacements(model, data)
     com = pin.centerOfMass(model, data, q)
@@ -114,12 +182,11 @@ def _residual(
             pin.Jlog6(miss)
             @ pin.getFrameJacobian(model, data, soles[foot], pin.ReferenceFrame.LOCAL)
         )
-    base = data.oMi[1]
-    errors.append(pin.log3(base.rotation)[:2])
-    rows.append(pin.getJointJacobian(model, data, 1, world)[3:5])
-    errors.append(com[:1])
-    rows.append(pin.jacobianCenterOfMass(model, data, q)[:1])
-    hip = legs["left"][2]
+    errors.append(pin.log3(data.oMi[1].rotation @ upright.T))
+    rows.append(pin.getJointJacobian(model, data, 1, world)[3:])
+    errors.append(com[:2])
+    rows.append(pin.jacobianCenterOfMass(model, data, q)[:2])
+    hip = legs["left"].hip
     errors.append(data.oMi[hip].translation[2:] - height)
     rows.append(pin.getJointJacobian(model, data, hip, world)[2:3])
     return np.concatenate(errors), np.vstack(rows)

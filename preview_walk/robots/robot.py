@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import mujoco
 import pinocchio as pin
 
+from preview_walk.robots.soles import SolePatch
+from preview_walk.robots.tree import Tree
+from preview_walk.robots.urdf import Urdf
 from preview_walk.types import Array, Foot
 
 
@@ -22,21 +25,40 @@ class RobotSole:
 
 
 @dataclass(frozen=True, eq=False)
+class Blueprint:
+    """What a robot was built from: enough to build its MuJoCo model again, with its looks.
+
+    The tree of the source model, its base body, the joints (ids) locked and the joints (names)
+    freed of their limits, the soles, the motors' limits (N·m) and the URDF if it was one.
+    """
+
+    tree: Tree
+    base: int
+    locked: frozenset[int]
+    unlimited: tuple[str, ...]
+    soles: Mapping[Foot, SolePatch]
+    efforts: Mapping[str, float]
+    urdf: Urdf | None
+
+
+@dataclass(frozen=True, eq=False)
 class Robot:
     """A legged robot in MuJoCo and Pinocchio, loaded by `preview_walk.load_robot`.
 
     Arrays over joints have one entry per joint below the floating base, in MuJoCo's and
     Pinocchio's common order (n = nv - 6).
 
-    - `mj`, `pin`: the two models; `soles`: one per foot; `torso`: Pinocchio frame of the trunk.
+    - `mj`, `pin`: the two models; `soles`: one per foot.
+    - `torso`: Pinocchio frame on the trunk, aligned with the world in the walking posture.
     - `effort` (n,): largest joint torque in N·m, 0 for a joint without a motor.
     - `q_lower`, `q_upper` (n,): joint limits in rad, infinite where the model has none.
     - `v_limit` (n,): joint speed limits in rad/s, infinite where the model has none.
     - `damping` (n,): viscous joint friction in N·m·s/rad, which MuJoCo adds to the motors.
     - `posture` (nq,): Pinocchio configuration of the walking posture, with the midpoint between
-      the soles at the origin and the robot facing x.
+      the soles at the origin and the robot facing x. The base may have any orientation in it.
     - `mass` (kg), `leg_length` (hip to sole, stretched), `step_width` (between the sole centres in
       the posture), `com_height` (of the posture above the soles), in m.
+    - `notes`: what was assumed, adapted or left out, one sentence each.
     """
 
     name: str
@@ -56,6 +78,8 @@ class Robot:
     leg_length: float
     step_width: float
     com_height: float
+    notes: tuple[str, ...]
+    blueprint: Blueprint = field(repr=False)
 
     @property
     def joint_names(self) -> tuple[str, ...]:

@@ -172,7 +172,7 @@ class Record(Ticks):
             return Record(**ticks, plans=PlanLog.from_arrays(arrays), settings=settings)
         except FileNotFoundError:
             raise InvalidInput(f"record file {os.fspath(path)} does not exist.") from None
-        except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+        except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
             if isinstance(error, InvalidInput):
                 raise
             raise InvalidInput(

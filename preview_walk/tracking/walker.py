@@ -6,12 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from preview_walk.planning.com_height import LegGeometry
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.pattern import ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
 from preview_walk.planning.swing_trajectory import Swing
 from preview_walk.planning.zmp_trajectory import Sole
+from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
+from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.momentum_model import momentum_model
 from preview_walk.tracking.whole_body import WholeBodyController
@@ -61,7 +64,7 @@ class Walker:
         self.pattern = WalkingPattern(
             plan,
             self.body.dynamics.com.copy(),
-            robot.com_height,
+            _legs(robot, self.body.dynamics),
             Sole(half.half_length, half.half_width),
             momentum_model(robot),
             self.swing_height,
@@ -160,6 +163,13 @@ class Walker:
                 share = min(share, (lift.lift - t) / RAMP_TIME + 0.01)
             limits[foot] = full * share
         return limits
+
+
+def _legs(robot: Robot, dynamics: Dynamics) -> LegGeometry:
+    """Return the leg geometry of a robot standing in its walking posture."""
+    hip = leg_joints(robot.pin, robot.soles["left"].frame)[2]
+    height = dynamics.data.oMi[hip].translation[2] - dynamics.feet["left"].position[2]
+    return LegGeometry(robot.leg_length, float(height), robot.com_height)
 
 
 def _yaw(rotation: Array) -> float:
