@@ -123,8 +123,8 @@ def _pushes(options: Options, plan: FootstepPlan) -> tuple[Push, ...]:
 
 def _write(record: Record, robot: Robot, folder: Path, *, video: bool) -> list[Path]:
     """Write everything to the folder, most precious first; return the paths."""
-    import preview_walk as pw
-    from preview_walk.analysis import PLOTS, plot_all
+    from preview_walk.analysis import PLOTS, plot, plot_all
+    from preview_walk.simulation.video import render_video
 
     movie = folder / "walk.mp4"
     # Of an earlier run nothing may stay that could be taken for a part of this one.
@@ -134,10 +134,10 @@ def _write(record: Record, robot: Robot, folder: Path, *, video: bool) -> list[P
         (folder / f"{name}.png").unlink(missing_ok=True)
     written = [record.save(folder / "record.npz"), record.summary().write(folder / "summary.json")]
     if len(record):
-        written += [pw.plot(record, folder / "walk.png"), *plot_all(record, folder)]
+        written += [plot(record, folder / "walk.png"), *plot_all(record, folder)]
     if video:
         with _naming("--video"), whole_file(movie) as part:
-            pw.render_video(record, robot, part)
+            render_video(record, robot, part)
         written.append(movie)
     return written
 

@@ -12,7 +12,7 @@ from preview_walk.robots.description import Description
 from preview_walk.robots.mjcf import compile_spec, settle
 from preview_walk.robots.motors import joint_efforts
 from preview_walk.robots.pinocchio_model import pinocchio_model, placement
-from preview_walk.robots.posture import find_leg, resting, walking_posture
+from preview_walk.robots.posture import Leg, find_leg, resting, walking_posture
 from preview_walk.robots.rebuild import rebuild
 from preview_walk.robots.robot import Blueprint, Robot, RobotSole
 from preview_walk.robots.soles import SolePatch, find_sole, sole_axes
@@ -48,16 +48,18 @@ def build_robot(description: Description, source: Source) -> Robot:
     check_agreement(mj, model, {foot: (sole_name(foot), frames[foot].frame) for foot in FEET})
     low, high = _limits(mj)
     set_limits(model, low, high)
-    posture, lengths = _posture(description, parts, tree, mj, model, frames)
+    posture, legs = _posture(description, parts, tree, mj, model, frames)
     freed = _free_limits(mj, model, posture)
     low, high = _limits(mj)
     data = model.createData()
     com = pin.centerOfMass(model, data, posture)
     pin.framesForwardKinematics(model, data, posture)
     left, right = (data.oMf[frames[f].frame].translation for f in FEET)
-    freed_note = [
-        f"joint limits ignored, as they forbid to stand with bent knees: {', '.join(freed)}"
-    ] if freed else []
+    freed_note = (
+        [f"joint limits ignored, as they forbid to stand with bent knees: {', '.join(freed)}"]
+        if freed
+        else []
+    )
     names = [str(name) for name in model.names[2:]]
     return Robot(
         name=description.name,
@@ -74,9 +76,10 @@ def build_robot(description: Description, source: Source) -> Robot:
         damping=np.array(mj.dof_damping[6:]),
         posture=posture,
         mass=float(mj.body_mass.sum()),
-        leg_length=min(lengths),
+        leg_length=min(leg.length for leg in legs.values()),
         step_width=float(np.linalg.norm((left - right)[:2])),
         com_height=float(com[2]),
+        legs=legs,
         notes=(*source.notes, *parts.notes, *settled, *pushed, *seen, *changed, *freed_note),
         blueprint=Blueprint(
             tree, parts.base, frozenset(locked), tuple(freed), soles, motors, source.urdf
@@ -121,9 +124,7 @@ def _torso_frame(model: pin.Model, data: pin.Data, torso: str) -> int:
     joint = model.frames[body].parentJoint
     upright = pin.SE3(np.eye(3), data.oMf[body].translation)
     local = data.oMi[joint].actInv(upright)
-    return int(
-        model.addFrame(pin.Frame("upright_torso", joint, 0, local, pin.FrameType.OP_FRAME))
-    )
+    return int(model.addFrame(pin.Frame("upright_torso", joint, 0, local, pin.FrameType.OP_FRAME)))
 
 
 def _limits(mj: mujoco.MjModel) -> tuple[Array, Array]:
@@ -146,14 +147,14 @@ def _posture(
     mj: mujoco.MjModel,
     model: pin.Model,
     soles: dict[Foot, RobotSole],
-) -> tuple[Array, list[float]]:
-    """Return the walking posture (nq,) and both legs' lengths (m)."""
+) -> tuple[Array, dict[Foot, Leg]]:
+    """Return the walking posture (nq,) and the legs."""
     rotation = tree.rotation(parts.base)
     forward, up = rotation.T @ parts.forward, rotation.T @ parts.up
     upright = np.vstack((forward, np.cross(up, forward), up))
     q = np.array(mj.qpos0)
     q[:3], q[3:7] = 0.0, pin.Quaternion(upright).coeffs()
-    legs = {
+    legs: dict[Foot, Leg] = {
         foot: find_leg(
             model,
             q,
@@ -169,7 +170,7 @@ def _posture(
     width = max(float(apart[1]), soles["left"].half_width + soles["right"].half_width + CLEARANCE)
     q = resting(model, q, description.posture)
     posture = walking_posture(model, q, {f: soles[f].frame for f in FEET}, legs, width)
-    return posture, [leg.length for leg in legs.values()]
+    return posture, legs
 
 
 def _free_limits(mj: mujoco.MjModel, model: pin.Model, posture: Array) -> list[str]:

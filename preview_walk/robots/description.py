@@ -125,6 +125,4 @@ def example_robot_data() -> Path:
         raise RobotError(
             "example-robot-data is not installed; expected it for the robots of the catalogue"
         ) from missing
-    return Path(
-        str(package.locate_file("cmeel.prefix/share/example-robot-data/robots"))
-    )
+    return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))

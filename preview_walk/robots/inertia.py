@@ -30,10 +30,10 @@ def usable_inertia(
     Raises `RobotError` for a mass or an inertia that is not a number or is negative.
     """
     if not (np.isfinite(mass) and np.isfinite(inertia).all()):
-        moments = ", ".join(f"{moment:g}" for moment in np.diag(inertia))
+        diagonal = ", ".join(f"{moment:g}" for moment in np.diag(inertia))
         raise RobotError(
             f"the body '{body}' has the mass {mass:g} kg and the moments of inertia "
-            f"({moments}) kg·m²; expected finite numbers"
+            f"({diagonal}) kg·m²; expected finite numbers"
         )
     if mass < 0.0:
         raise RobotError(

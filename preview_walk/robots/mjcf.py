@@ -90,9 +90,7 @@ def settle(
         )
     if mj.ntendon:
         notes.append(f"{mj.ntendon} tendon(s) left out")
-    strangers = [
-        tree.name(b) for b in range(1, mj.nbody) if b not in own and mj.body_jntnum[b]
-    ]
+    strangers = [tree.name(b) for b in range(1, mj.nbody) if b not in own and mj.body_jntnum[b]]
     if strangers:
         notes.append(f"not part of the robot, left out: {', '.join(strangers)}")
     return set(locked), notes

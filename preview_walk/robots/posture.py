@@ -24,7 +24,7 @@ MARGIN = 0.05
 
 @dataclass(frozen=True)
 class Leg:
-    """A leg's Pinocchio joints, pelvis first; the three that bend it are hip, knee and ankle.
+    """A leg's Pinocchio joints, pelvis first; three bend it: `hip`, `knee` and `ankle`.
 
     `bend` is the sign of a flexing knee's angle; `length` (m) the sum of thigh, shank and foot.
     """
@@ -43,9 +43,7 @@ def leg_joints(model: pin.Model, frame: int) -> list[int]:
     return [j for j in chain if j > 1]
 
 
-def find_leg(
-    model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lateral: Array
-) -> Leg:
+def find_leg(model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lateral: Array) -> Leg:
     """Return a leg by its joints: those about the `lateral` direction (3,) bend it.
 
     The leg's length is the longest distance from hip to sole: between the axes of hip, knee and
@@ -141,9 +139,9 @@ def walking_posture(
             bend = model.joints[joint]
             q[bend.idx_q] = forward * lateral[bend.idx_v] * angle
     height = stretch * min(leg.length for leg in legs.values())
-    target = {
-        foot: pin.SE3(np.eye(3), np.array([0.0, side * width / 2, 0.0]))
-        for foot, side in (("left", 1.0), ("right", -1.0))
+    target: dict[Foot, pin.SE3] = {
+        "left": pin.SE3(np.eye(3), np.array([0.0, width / 2, 0.0])),
+        "right": pin.SE3(np.eye(3), np.array([0.0, -width / 2, 0.0])),
     }
     for _ in range(200):
         error, jacobian = _residual(model, data, q, upright, soles, legs, target, height)

@@ -90,9 +90,7 @@ def _add_joint(tree: Tree, body: mujoco.MjsBody, joint: int) -> None:
     made.frictionloss = float(mj.dof_frictionloss[dof])
 
 
-def _add_looks(
-    mj: mujoco.MjModel, spec: mujoco.MjSpec, made: mujoco.MjsBody, body: int
-) -> None:
+def _add_looks(mj: mujoco.MjModel, spec: mujoco.MjSpec, made: mujoco.MjsBody, body: int) -> None:
     """Copy the shown geoms of a body."""
     first = int(mj.body_geomadr[body])
     for geom in range(first, first + int(mj.body_geomnum[body])):

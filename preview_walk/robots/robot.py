@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import mujoco
 import pinocchio as pin
 
+from preview_walk.robots.posture import Leg
 from preview_walk.robots.soles import SolePatch
 from preview_walk.robots.tree import Tree
 from preview_walk.robots.urdf import Urdf
@@ -49,6 +50,7 @@ class Robot:
     Pinocchio's common order (n = nv - 6).
 
     - `mj`, `pin`: the two models; `soles`: one per foot.
+    - `legs`: each leg's Pinocchio joints, with hip, knee and ankle among them.
     - `torso`: Pinocchio frame on the trunk, aligned with the world in the walking posture.
     - `effort` (n,): largest joint torque in N·m, 0 for a joint without a motor.
     - `q_lower`, `q_upper` (n,): joint limits in rad, infinite where the model has none.
@@ -78,6 +80,7 @@ class Robot:
     leg_length: float
     step_width: float
     com_height: float
+    legs: Mapping[Foot, Leg]
     notes: tuple[str, ...]
     blueprint: Blueprint = field(repr=False)
 

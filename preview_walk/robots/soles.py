@@ -89,7 +89,7 @@ def inscribed_rectangle(points: Array) -> tuple[float, float, float, float]:
     ring = np.roll(hull, -start, axis=0)
     turn = (stop - start) % len(hull)
     lower, upper = ring[: turn + 1], np.vstack((ring[turn:], ring[:1]))[::-1]
-    x = np.unique(np.concatenate((hull[:, 0], np.linspace(*hull[[start, stop], 0], 101))))
+    x = np.unique(np.concatenate((hull[:, 0], np.linspace(hull[start, 0], hull[stop, 0], 101))))
     floor, roof = -_roof(x, lower * (1.0, -1.0)), _roof(x, upper)
     height = np.minimum(roof[:, None], roof) - np.maximum(floor[:, None], floor)
     area = (x - x[:, None]) * height

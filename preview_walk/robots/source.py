@@ -59,10 +59,14 @@ def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
         missing = add_shapes(source.urdf, spec, kind, links)
         shaped = Tree(compile_spec(spec, f"'{source.urdf.path}'"))
         if shaped.mj.ngeom:
-            notes = [] if kind == "collision" else [
-                f"the sole of '{tree.name(body)}' is found from its visual mesh, "
-                "as it has no collision shape"
-            ]
+            notes = (
+                []
+                if kind == "collision"
+                else [
+                    f"the sole of '{tree.name(body)}' is found from its visual mesh, "
+                    "as it has no collision shape"
+                ]
+            )
             return shaped, notes
         for address in missing:
             source.urdf.flaws["mesh not found or not readable"].append(address)

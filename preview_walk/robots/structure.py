@@ -56,11 +56,12 @@ def find_structure(tree: Tree, feet: Mapping[Foot, str], torso: str | None) -> S
                 + f"; expected at least {LEG_JOINTS}, so that the sole can be placed freely"
             )
     if not feet:  # toes lie beyond the sixth joint
-        pair = tuple(int(tree.mj.jnt_bodyid[chain[LEG_JOINTS - 1]]) for chain in chains)
         chains = [chain[:LEG_JOINTS] for chain in chains]
+        left, right = (int(tree.mj.jnt_bodyid[chain[-1]]) for chain in chains)
+        pair = (left, right)
     base = _base(tree, pelvis)
     hips, soles = ([_at(tree, chain[i]) for chain in chains] for i in (0, LEG_JOINTS - 1))
-    up = _up(tree, base, sum(hips) / 2 - sum(soles) / 2)
+    up = _up(tree, base, hips[0] + hips[1] - soles[0] - soles[1])
     across = hips[0] - hips[1]
     if np.linalg.norm(across) < 0.01:
         across = soles[0] - soles[1]
@@ -72,7 +73,7 @@ def find_structure(tree: Tree, feet: Mapping[Foot, str], torso: str | None) -> S
             side = _bending_side(tree, chains, across, up)
             notes.append("no name tells left from right: taken from the way the knees bend")
         if side < 0:
-            pair, chains, across = pair[::-1], chains[::-1], -across
+            pair, chains, across = (pair[1], pair[0]), chains[::-1], -across
         found = dict(zip(FEET, pair, strict=True))
     forward = np.cross(across, up)
     if forward @ tree.rotation(base)[:, 0] < 0.9:
@@ -184,9 +185,7 @@ def _torso(tree: Tree, base: int, pelvis: int, feet: Mapping[Foot, int]) -> int:
     """Return the body that carries arms and head: where the limbs that are not legs branch."""
     legs = {body for foot in FEET for body in tree.path(feet[foot])[len(tree.path(pelvis)) :]}
     carried = set(tree.below(base))
-    tips = [
-        tip for tip in tree.tips if tip in carried and not legs & set(tree.path(tip))
-    ]
+    tips = [tip for tip in tree.tips if tip in carried and not legs & set(tree.path(tip))]
     if not tips:
         return pelvis
     if len(tips) > 1:

@@ -90,8 +90,7 @@ def _end(joint: Element, end: str, links: dict[str, Element]) -> str:
     name = "" if element is None else str(element.get("link"))
     if name not in links:
         raise RobotError(
-            f"the joint '{joint.get('name')}' names the {end} link '{name}', "
-            "which the URDF lacks"
+            f"the joint '{joint.get('name')}' names the {end} link '{name}', which the URDF lacks"
         )
     return name
 
@@ -162,7 +161,7 @@ def vector(element: Element | None, key: str, default: tuple[float, ...]) -> Arr
     except ValueError:
         values = np.empty(0)
     if len(values) != len(default):
-        raise RobotError(f"the URDF holds {key}=\"{text}\"; expected {len(default)} number(s)")
+        raise RobotError(f'the URDF holds {key}="{text}"; expected {len(default)} number(s)')
     return values
 
 

@@ -10,6 +10,10 @@ import numpy as np
 
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.footstep_planner import FootstepPlanner
+from preview_walk.planning.limits import GaitLimits
+from preview_walk.planning.support import Sole
+from preview_walk.planning.velocity import follow_velocity
 from preview_walk.robots.contact_sensor import zmp
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
@@ -34,6 +38,9 @@ FALL_HEIGHT = 0.7
 
 FALL_TILT = 0.9
 """... or its torso leans further than this (rad)."""
+
+FORGET = 3.0
+"""A walk by command forgets footsteps older than this (s): an endless walk keeps a short plan."""
 
 Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
@@ -81,6 +88,12 @@ class Walk:
         q = standing_configuration(robot, plan)
         self.world.place(q)
         self.walker = Walker(robot, plan, q, friction, gains, solver)
+        sole = robot.soles["left"]
+        self.limits = GaitLimits.for_leg(
+            robot.leg_length, robot.step_width, Sole(sole.half_length, sole.half_width)
+        )
+        self._command = (0.0, 0.0, 0.0)
+        self._obey_at = np.inf
         self._tick = 0
         self._start = plan.start
         self._wall = 0.0
@@ -112,6 +125,17 @@ class Walk:
             {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
         )
 
+    @classmethod
+    def standing(
+        cls, robot: Robot, start: Sequence[float] = (0.0, 0.0), **settings: Any
+    ) -> Walk:
+        """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
+
+        `settings` are the keyword arguments of `Walk`.
+        """
+        planner = FootstepPlanner(step_width=robot.step_width)
+        return cls(robot, planner.generate_footsteps(0, start), **settings)
+
     @property
     def time(self) -> float:
         """Simulated time (s); the plan's start at first."""
@@ -137,6 +161,29 @@ class Walk:
         over = self.time >= self.plan.end + STAND_AFTER - 1e-9
         return self.fallen or self._interrupted or over
 
+    def command(self, vx: float, vy: float, wz: float) -> None:
+        """Walk at this velocity from now on, until another command; zeros stop the walk.
+
+        `vx` (forward) and `vy` (left) in m/s, `wz` (yaw rate, left positive) in rad/s, in the
+        frame of the walking robot; scaled down to what its legs can do. The plan always ends in a
+        stand, so a walk that nobody commands any more stops safely. May be called at any moment.
+
+        Raises:
+            InvalidInput: a number is not finite.
+        """
+        self._command = (vx, vy, wz)
+        self._obey()
+
+    def _obey(self) -> None:
+        """Plan on along the command in force; again at every lift, so that the plan never ends."""
+        t = self.time
+        plan = follow_velocity(self.plan, t, self._command, self.limits)
+        if plan is not self.plan:
+            self.plan = plan.since(t - FORGET)
+        going = any(self._command)
+        lift = next((step.lift for step in self.plan.steps if step.lift > t), t)
+        self._obey_at = lift + 0.5 * self._dt if going else np.inf
+
     def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
         """Go on to time `until` (s; default: until it has stood for a while after the plan).
 
@@ -158,6 +205,8 @@ class Walk:
         """Do one control tick: sense, compute torques, record, step the physics."""
         start = perf_counter()
         t, world, walker = self.time, self.world, self.walker
+        if t >= self._obey_at:
+            self._obey()
         world.sense()
         before = perf_counter()
         try:
