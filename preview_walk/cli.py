@@ -8,9 +8,9 @@ import shlex
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from preview_walk.cli_options import Options, complain, parse
 from preview_walk.errors import InvalidInput, PreviewWalkError
@@ -66,6 +66,7 @@ def _run(options: Options, command: str) -> int:
     with _naming("--view"):
         _require_screen(options.view)
     import preview_walk as pw  # not before the options are right: engines take a while to load
+    from preview_walk.simulation.walk import FRICTION
 
     with _naming("--robot"):
         robot = pw.load_robot(options.robot)
@@ -74,7 +75,6 @@ def _run(options: Options, command: str) -> int:
     with _naming("--push"):
         pushes = _pushes(options, plan)
     _make_folder(options.out)
-    friction = {} if options.friction is None else {"friction": options.friction}
     with _naming("--robot"), _progress_bar() as progress:
         record = pw.simulate(
             robot,
@@ -83,7 +83,7 @@ def _run(options: Options, command: str) -> int:
             seed=options.seed,
             progress=progress,
             viewer=options.view,
-            **friction,
+            friction=FRICTION if options.friction is None else options.friction,
         )
     record = record.with_settings(command=command)
     stopped = bool(record.settings.get("interrupted"))
@@ -176,16 +176,22 @@ def _progress_bar() -> Iterator[Callable[[float, float], None]]:
     from tqdm import tqdm
 
     form = "{desc}: {percentage:3.0f}%|{bar}| {n:.1f}/{total:.1f} s [{elapsed}<{remaining}]"
-    interval = 0.1 if sys.stderr.isatty() else 5.0
-    with tqdm(desc="walking", total=1.0, bar_format=form, mininterval=interval) as bar:
+    bars: list[
+        Any
+    ] = []  # none before the walk begins: bad input is to get its sentence and nothing else
 
-        def progress(time: float, end: float) -> None:
-            bar.total = end
-            bar.update(time - bar.n)
+    def progress(time: float, end: float) -> None:
+        if not bars:
+            interval = 0.1 if sys.stderr.isatty() else 5.0
+            bars.append(tqdm(desc="walking", total=end, bar_format=form, mininterval=interval))
+        bars[0].total = end
+        bars[0].update(time - bars[0].n)
 
+    try:
         yield progress
-        with suppress(OSError):
-            bar.refresh()
+    finally:
+        for bar in bars:
+            bar.close()
 
 
 if __name__ == "__main__":

@@ -43,7 +43,8 @@ def draw_forces(ax: Axes, record: Record) -> None:
     ax.axhline(_weight(record), color="0.5", linewidth=0.8, linestyle=":", label="weight")
     mark_fall(ax, record)
     finish(ax, "Contact forces, vertical", "force [N]")
-    legend(ax, planned_key("planned by the QP"), *patches)
+    planned_too = np.isfinite(record.left_force_ref).any()
+    legend(ax, *([planned_key("planned by the QP")] if planned_too else []), *patches)
 
 
 def draw_friction(ax: Axes, record: Record) -> None:

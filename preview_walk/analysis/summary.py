@@ -153,14 +153,15 @@ def _path_and_speed(record: Record) -> tuple[float, float | None]:
     if not len(record):
         return 0.0, None
     landed = _landed(record)
-    # Every second landing is of the same foot: the sway is at the same point of its cycle.
-    times = np.concatenate([[record.time[0]], landed[1::2], [_end(record)]])
+    # Every second landing is of the same foot: the sway is at the same point of its cycle. The last
+    # landing is left out, for what follows it is sway alone.
+    times = np.concatenate([[record.time[0]], landed[1:-1:2], [_end(record)]])
     distance = _path(record, times)
-    first, last = round(0.25 * (len(landed) - 1)), round(0.75 * (len(landed) - 1))
-    last -= (last - first) % 2
-    if len(landed) < 3 or last <= first:
+    if len(landed) < 3:
         return distance, None
-    span = landed[first : last + 1 : 2]
+    first, last = round(0.25 * (len(landed) - 1)), round(0.75 * (len(landed) - 1))
+    strides = max(1, (last - first) // 2)
+    span = landed[first : first + 2 * strides + 1 : 2]
     return distance, _path(record, span) / float(span[-1] - span[0])
 
 

@@ -16,6 +16,7 @@ from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.preview_controller import ComState, PreviewController
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.zmp_trajectory import Sole, zmp_reference
+from preview_walk.planning.dcm import planned_dcm
 from preview_walk.types import FEET, Array
 
 PLANNING_DT = 0.005
@@ -51,7 +52,8 @@ class WalkingPattern:
     Attributes:
         plan: the footsteps; assign another one at any time.
         legs: how high the CoM can be.
-        omega: natural frequency sqrt(g / com_height) of the pendulum (1/s).
+        omega: natural frequency (1/s) of the pendulum, sqrt(g / height) with the cart-table's
+            height (`MomentumModel.effective_height`).
     """
 
     def __init__(
@@ -65,10 +67,9 @@ class WalkingPattern:
     ) -> None:
         """Start at the plan's start with the CoM at rest at `com` (3,), in m."""
         self.legs = legs
-        self.omega = (GRAVITY / legs.com_height) ** 0.5
-        self.controller = PreviewController(
-            momentum.effective_height(legs.com_height), PLANNING_DT, PREVIEW_TIME
-        )
+        height = momentum.effective_height(legs.com_height)
+        self.omega = (GRAVITY / height) ** 0.5
+        self.controller = PreviewController(height, PLANNING_DT, PREVIEW_TIME)
         self._sole = sole
         self._momentum = momentum
         self._swing_height = swing_height
@@ -98,8 +99,33 @@ class WalkingPattern:
         self._reference = self._zmp.at(times)
         self._shift = swing_zmp_shift(plan, times, self._momentum, self._swing_height)
         self._samples = self._reference - self._shift
+        self._dcm = planned_dcm(self._samples, self.omega * PLANNING_DT)
         self._heights = np.zeros((len(times), 2))
         self._heights[:, 0] = wanted_heights(plan, times, self.legs)
+
+    def planned_dcm(self, t: float) -> Array:
+        """Return the DCM (2,) in m that the plan has at time t (s), now or later.
+
+        The only one from which its ZMP reference keeps the CoM bounded.
+        """
+        place = (t - self._start) / PLANNING_DT - self._first
+        here = min(max(int(place), 0), len(self._dcm) - 2)
+        share = min(max(place - here, 0.0), 1.0)
+        value: Array = (1.0 - share) * self._dcm[here] + share * self._dcm[here + 1]
+        return value
+
+    def rejoin(self, t: float, com: Array) -> None:
+        """Go on from a measured CoM (2,) with the plan's DCM at time t (s), after a push.
+
+        The error that remains against the measured state is that of the DCM alone, which is what
+        the feedback can act on.
+        """
+        self._tick = max(self._tick, int((t - self._start) / PLANNING_DT + 1e-9))
+        sample = min(self._tick - self._first, len(self._samples) - 1)
+        velocity = self.omega * (self._dcm[sample] - com)
+        acceleration = self.omega**2 * (com - self._samples[sample])
+        self._now = self.controller.initial_state(com, velocity, acceleration)
+        self._next, self._next_z = self._step()
 
     def _step(self) -> tuple[ComState, ComState]:
         """Return the horizontal and the vertical state one planning tick after the present."""

@@ -98,10 +98,8 @@ class Swing:
         object.__setattr__(self, "start", as_pose(self.start, "start of the swing"))
         object.__setattr__(self, "end", as_pose(self.end, "end of the swing"))
         if not (isfinite(self.lift) and isfinite(self.land) and self.lift < self.land):
-            raise InvalidInput(
-                f"a swing needs finite times (s) with lift < land, "
-                f"got lift {self.lift} and land {self.land}."
-            )
+            times = f"{self.lift} s, {self.land} s"
+            raise InvalidInput(f"a swing needs finite times with lift < land, got {times}.")
         for name in ("swing_height", "ground_clearance"):
             value = getattr(self, name)
             if not (isfinite(value) and value >= 0.0):
@@ -167,7 +165,7 @@ class Swing:
         Position, velocity and acceleration are continuous at t.  A foot that still rises goes
         over an apex high enough for the new sole too; one that comes down goes to it directly.
         Where a later landing would make it overshoot or dip into the ground, it finishes its old
-        motion and waits there, above the ground.
+        motion and waits there.  The new swing knows nothing of the times before t.
 
         Args:
             t: now, s, lift <= t < land.
@@ -179,9 +177,8 @@ class Swing:
         """
         land = self.land if land is None else float(land)
         if not self.lift <= t < self.land:
-            raise InvalidInput(
-                f"t must be within the swing, {self.lift:.3f} s to {self.land:.3f} s, got {t}."
-            )
+            span = f"{self.lift:.3f} s to {self.land:.3f} s"
+            raise InvalidInput(f"t must be within the swing, {span}, got {t}.")
         if not (isfinite(land) and land > t):
             raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
         end = as_pose(pose, "pose of the landing")
@@ -191,15 +188,14 @@ class Swing:
     def _new_plane(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
         now = tuple(q.at(t) for q in self._plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
-        dx, dy = goal[0] - now[0][0], goal[1] - now[1][0]
-        arrive, before = land, self._plane[0].end
-        # A quintic from speed v with distance d to go overshoots when v T > 2.5 d, about.
-        closing = now[0][1] * dx + now[1][1] * dy
-        if t < before < land and closing * (land - t) > 2.0 * (dx * dx + dy * dy):
-            arrive = before
-        return tuple(
-            Quintic.between(t, arrive, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
+        plane = tuple(
+            Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
         )
+        before = self._plane[0].end
+        if t < before < land and _overshoots(plane[0], plane[1]):
+            ends = zip(now, goal, strict=True)
+            plane = tuple(Quintic.between(t, before, s, (g, 0.0, 0.0)) for s, g in ends)
+        return plane
 
     def _new_vertical(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
         z0, z1 = float(self.start[2, 3]), float(end[2, 3])
@@ -208,7 +204,7 @@ class Swing:
         apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
         if len(self._vertical) == 2 and t < piece.end < self.land and target > old - 1e-9:
             top = t + (piece.end - t) * (land - t) / (self.land - t)
-            if apex > target:
+            if apex > target + 1e-9:
                 top = max(top, t + 0.35 * (land - t))
             return _over(t, now, top, max(apex, target), land, z1)
         direct = Quintic.between(t, land, now, (z1, 0.0, 0.0))
@@ -224,15 +220,21 @@ class Swing:
         return _over(t, now, piece.end, wait, land, z1)
 
 
+def _overshoots(x: Quintic, y: Quintic) -> bool:
+    """Return whether a planar path goes more than 1 % of its way beyond its end."""
+    x1, y1 = sum(x.coefficients), sum(y.coefficients)
+    dx, dy = x1 - x.coefficients[0], y1 - y.coefficients[0]
+    times = [x.start + 0.1 * k * (x.end - x.start) for k in range(1, 10)]
+    beyond = max((x.at(t)[0] - x1) * dx + (y.at(t)[0] - y1) * dy for t in times)
+    return beyond > 0.01 * (dx * dx + dy * dy)
+
+
 def _over(
     t: float, now: State, middle: float, height: float, land: float, z1: float
 ) -> tuple[Quintic, Quintic]:
     """Return the two quintics that rest at `height` at time `middle` and at z1 at time `land`."""
-    rest = (height, 0.0, 0.0)
-    return (
-        Quintic.between(t, middle, now, rest),
-        Quintic.between(middle, land, rest, (z1, 0.0, 0.0)),
-    )
+    rest, last = (height, 0.0, 0.0), (z1, 0.0, 0.0)
+    return Quintic.between(t, middle, now, rest), Quintic.between(middle, land, rest, last)
 
 
 def swing_of(
@@ -262,9 +264,7 @@ def _near(goal: Sequence[float], now: Sequence[float]) -> tuple[float, ...]:
 class SwingLegTrajectory:
     """The walking lab's name for a sampled swing between two sole positions.
 
-    Attributes:
-        swing_height: height (m) of the apex above the higher of the two soles.
-        ground_clearance: least height (m) in the middle part; see `Swing`.
+    Attributes: as in `Swing`.
     """
 
     swing_height: float = 0.05

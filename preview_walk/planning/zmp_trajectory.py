@@ -189,8 +189,8 @@ def _crossing(pause: Array, room: Array, limit: Array) -> tuple[Array, Array, Ar
 
     Returns:
         Reach (n,) in s, share (n,) done in each reach, and the share's rate (n,) in 1/s at its
-        end: of the cubic over the whole time where `limit` allows, and else of the shortest reach
-        that makes the crossing uniform in double support (no corner of the speed).
+        end.  Where `limit` allows, the crossing is the cubic over the whole time; else the reach
+        takes as much of it as is allowed, no slower than the double support goes on average.
     """
     extra = np.minimum(0.5 * (TRANSFER_TIME - pause).clip(0.0), room)
     total = pause + 2.0 * extra
@@ -198,8 +198,8 @@ def _crossing(pause: Array, room: Array, limit: Array) -> tuple[Array, Array, Ar
     share = u * u * (3.0 - 2.0 * u)
     slope = 6.0 * u * (1.0 - u) / total
     short = share > limit
-    uniform = 3.0 * limit * pause / (1.0 - 2.0 * limit)
-    reach = np.where(short, np.minimum(extra, uniform), extra)
+    brisk = 3.0 * limit * pause / (1.0 - 2.0 * limit)
+    reach = np.where(short, np.minimum(extra, brisk), extra)
     share = np.where(short, limit, share)
     steepest = 3.0 * share / np.where(reach > 0.0, reach, 1.0)
     return reach, share, np.where(short, np.minimum(slope, steepest), slope)

@@ -90,6 +90,11 @@ def floor(spec: mujoco.MjSpec) -> None:
         width=64,
         height=384,
     )
-    spec.worldbody.add_light(
-        name="sun", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, pos=(0, 0, 4), dir=(0.3, 0.4, -1)
+    # The sun follows the robot, because shadows are drawn only near it.
+    spec.worldbody.first_body().add_light(
+        name="sun",
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        mode=mujoco.mjtCamLight.mjCAMLIGHT_TRACKCOM,
+        pos=(-0.6, -0.8, 2.0),
+        dir=(0.3, 0.4, -1),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import mujoco
 import numpy as np
 import pinocchio as pin
@@ -9,7 +11,7 @@ import pinocchio as pin
 from preview_walk.robots.agreement import check_agreement
 from preview_walk.robots.assemble import assemble, sole_name
 from preview_walk.robots.description import Description
-from preview_walk.robots.mjcf import compile_spec, settle
+from preview_walk.robots.mjcf import compile_spec, keyframe_angles, settle
 from preview_walk.robots.motors import joint_efforts
 from preview_walk.robots.pinocchio_model import pinocchio_model, placement
 from preview_walk.robots.posture import Leg, find_leg, resting, walking_posture
@@ -48,7 +50,12 @@ def build_robot(description: Description, source: Source) -> Robot:
     check_agreement(mj, model, {foot: (sole_name(foot), frames[foot].frame) for foot in FEET})
     low, high = _limits(mj)
     set_limits(model, low, high)
-    posture, legs = _posture(description, parts, tree, mj, model, frames)
+    named: Mapping[str, float] = description.posture
+    if not named:
+        angles, key = keyframe_angles(tree)
+        named = {name: angle for name, angle in angles.items() if model.existJointName(name)}
+        settled += [f"arms and trunk as in the keyframe '{key}'"] if key else []
+    posture, legs = _posture(named, parts, tree, mj, model, frames)
     freed = _free_limits(mj, model, posture)
     low, high = _limits(mj)
     data = model.createData()
@@ -141,7 +148,7 @@ def set_limits(model: pin.Model, low: Array, high: Array) -> None:
 
 
 def _posture(
-    description: Description,
+    named: Mapping[str, float],
     parts: Structure,
     tree: Tree,
     mj: mujoco.MjModel,
@@ -168,7 +175,7 @@ def _posture(
     pin.framesForwardKinematics(model, data, q)
     apart = data.oMf[soles["left"].frame].translation - data.oMf[soles["right"].frame].translation
     width = max(float(apart[1]), soles["left"].half_width + soles["right"].half_width + CLEARANCE)
-    q = resting(model, q, description.posture)
+    q = resting(model, q, named)
     posture = walking_posture(model, q, {f: soles[f].frame for f in FEET}, legs, width)
     return posture, legs
 

@@ -13,7 +13,7 @@ from preview_walk.robots.description import Description, describe
 from preview_walk.robots.mjcf import compile_spec
 from preview_walk.robots.rebuild import rebuild
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.shapes import add_shapes
+from preview_walk.robots.shapes import add_bones, add_shapes
 from preview_walk.robots.source import read_source
 
 
@@ -34,12 +34,14 @@ def visual_model(robot: Robot) -> mujoco.MjModel:
     """Return the robot's MuJoCo model with its visual shapes: same bodies, joints and state.
 
     Meshes that are missing, or that need trimesh or pycollada where these are not installed, are
-    left out.
+    left out; a robot that has none at all is drawn as bones from joint to joint.
     """
     plan = robot.blueprint
     spec, _ = rebuild(plan.tree, plan.base, plan.locked, looks=plan.urdf is None)
     if plan.urdf is not None:
         add_shapes(plan.urdf, spec, "visual")
+    if not spec.geoms:
+        add_bones(spec)
     assemble(spec, plan.soles, plan.efforts)
     for name in plan.unlimited:
         spec.joint(name).limited = False

@@ -89,6 +89,8 @@ def _colour(visual: Any) -> tuple[float, float, float, float] | None:
     """Return the main colour of a trimesh visual."""
     try:
         material = getattr(visual, "material", None)
+        if max(getattr(material, "kwargs", {}).get("kd", (0.0,))) > 1.0:
+            return None  # brighter than bright: a slip of an exporter
         rgba = visual.main_color if material is None else material.main_color
         red, green, blue, alpha = (float(value) / 255.0 for value in rgba)
     except Exception:  # textures and exotic materials have no main colour

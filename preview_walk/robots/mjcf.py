@@ -96,6 +96,22 @@ def settle(
     return set(locked), notes
 
 
+def keyframe_angles(tree: Tree) -> tuple[dict[str, float], str]:
+    """Return the joint angles of the keyframe that stands best, by joint name, and its name.
+
+    One called stand, else home, else the first; ({}, "") where there is none.
+    """
+    mj = tree.mj
+    names = [str(mj.key(key).name) or f"key_{key}" for key in range(mj.nkey)]
+    wish = [key for word in ("stand", "home") for key, n in enumerate(names) if word in n.lower()]
+    if not names:
+        return {}, ""
+    key = (wish or [0])[0]
+    moving = tree.joints_on(list(range(1, mj.nbody)))
+    angles = {tree.joint_name(j): float(mj.key_qpos[key, mj.jnt_qposadr[j]]) for j in moving}
+    return angles, names[key]
+
+
 def _refuse_joints(tree: Tree, own: set[int]) -> None:
     """Raise `RobotError` for a joint of the robot that is neither hinge nor slide."""
     mj = tree.mj

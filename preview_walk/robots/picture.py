@@ -17,6 +17,10 @@ SOLE_COLOURS = {"left": (0.9, 0.25, 0.2, 0.9), "right": (0.2, 0.65, 0.3, 0.9)}
 """Colours of the left and right sole: port and starboard."""
 
 
+SEEN_THROUGH = 0.4
+"""Opacity of the feet, so that the soles in them show."""
+
+
 def stance_image(
     robot: Robot, width: int = 480, height: int = 640, azimuth: float = 145.0
 ) -> np.ndarray[Any, np.dtype[np.uint8]]:
@@ -34,8 +38,12 @@ def stance_image(
     option = mujoco.MjvOption()
     option.geomgroup[3] = 1
     for foot in FEET:
-        model.geom(f"{foot}_sole").rgba = SOLE_COLOURS[foot]
-    top = float((data.xpos[1:, 2]).max())
+        sole = model.geom(f"{foot}_sole")
+        foot_body = model.body_weldid[sole.bodyid[0]]
+        model.geom_rgba[model.body_weldid[model.geom_bodyid] == foot_body, 3] = SEEN_THROUGH
+        sole.rgba = SOLE_COLOURS[foot]
+    shown = model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE
+    top = float((data.geom_xpos[:, 2] + 0.7 * model.geom_rbound)[shown].max())
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (0.0, 0.0, 0.54 * top)
     camera.distance, camera.azimuth, camera.elevation = 1.75 * top + 0.3, azimuth, -12.0

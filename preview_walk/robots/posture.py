@@ -87,7 +87,7 @@ def knees_forward(model: pin.Model, legs: Mapping[Foot, Leg]) -> float:
     for leg in legs.values():
         at = model.joints[leg.knee].idx_q
         low, high = model.lowerPositionLimit[at], model.upperPositionLimit[at]
-        if np.isfinite(low + high):
+        if np.isfinite(low) and np.isfinite(high):
             room += leg.bend * float(low + high)
     return 1.0 if room >= 0.0 else -1.0
 
@@ -118,13 +118,14 @@ def walking_posture(
     legs: Mapping[Foot, Leg],
     width: float,
     stretch: float = STRETCH,
+    lean: float = 0.0,
 ) -> Array:
     """Return the walking posture (nq,) by inverse kinematics, the robot facing x.
 
     `q` (nq,) holds the upright base orientation and all angles but the legs'. These follow from:
     `soles` (Pinocchio frames) flat, level, facing forward and `width` (m) apart; hips `stretch`
     times the leg's length above the soles; base upright; CoM over the midpoint of the soles, which
-    lies at the origin.
+    lies at the origin, or `lean` (m) to its left.
 
     Raises `RobotError` where no such posture exists.
     """
@@ -144,7 +145,7 @@ def walking_posture(
         "right": pin.SE3(np.eye(3), np.array([0.0, -width / 2, 0.0])),
     }
     for _ in range(200):
-        error, jacobian = _residual(model, data, q, upright, soles, legs, target, height)
+        error, jacobian = _residual(model, data, q, upright, soles, legs, target, (lean, height))
         if np.abs(error).max() < 1e-10:
             return np.asarray(q)
         step = np.zeros(model.nv)
@@ -165,9 +166,9 @@ def _residual(
     soles: Mapping[Foot, int],
     legs: Mapping[Foot, Leg],
     target: Mapping[Foot, pin.SE3],
-    height: float,
+    goal: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Return the posture's residual (18,) and its Jacobian (18, nv)."""
+    """Return the residual (18,) and its Jacobian (18, nv); `goal`: CoM to the left, hip height."""
     pin.computeJointJacobians(model, data, q)
     pin.updateFramePlacements(model, data)
     com = pin.centerOfMass(model, data, q)
@@ -182,9 +183,9 @@ def _residual(
         )
     errors.append(pin.log3(data.oMi[1].rotation @ upright.T))
     rows.append(pin.getJointJacobian(model, data, 1, world)[3:])
-    errors.append(com[:2])
+    errors.append(com[:2] - (0.0, goal[0]))
     rows.append(pin.jacobianCenterOfMass(model, data, q)[:2])
     hip = legs["left"].hip
-    errors.append(data.oMi[hip].translation[2:] - height)
+    errors.append(data.oMi[hip].translation[2:] - goal[1])
     rows.append(pin.getJointJacobian(model, data, hip, world)[2:3])
     return np.concatenate(errors), np.vstack(rows)

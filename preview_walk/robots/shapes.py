@@ -11,6 +11,9 @@ from preview_walk.robots.meshes import GREY, add_piece, mesh_file, read_mesh
 from preview_walk.robots.urdf import Element, Urdf, number, origin, quaternion, vector
 from preview_walk.types import Array
 
+BONE = 0.025
+"""Radius (m) of the bones that stand for missing shapes."""
+
 VISUAL_GROUP = 2
 """MuJoCo geom group of what is only looked at."""
 
@@ -84,6 +87,22 @@ def _add_shape(
         size = np.array((number(shape, "radius"), number(shape, "length") / 2, 0.0))
     if size[0] > 0.0:
         finish(body.add_geom(type=kinds[shape.tag], size=size), position, quat, colour or GREY)
+
+
+def add_bones(spec: mujoco.MjSpec) -> None:
+    """Draw a robot without shapes: a bone from every body to those that hang on it."""
+    for body in spec.bodies[1:]:
+        for child in body.bodies:
+            length = float(np.linalg.norm(child.pos))
+            if length > 2 * BONE:
+                bone = body.add_geom(
+                    type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+                    fromto=(0.0, 0.0, 0.0, *child.pos),
+                    size=(BONE, 0.0, 0.0),
+                )
+                bone.rgba, bone.mass, bone.contype, bone.conaffinity = GREY, 0.0, 0, 0
+        ball = body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(1.4 * BONE, 0.0, 0.0))
+        finish(ball, np.zeros(3), np.array((1.0, 0.0, 0.0, 0.0)), (0.45, 0.5, 0.6, 1.0))
 
 
 def finish(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import combinations, product
+from itertools import combinations
 
 import numpy as np
 
@@ -105,29 +105,34 @@ def _at(tree: Tree, joint: int) -> Array:
 
 def _find_pair(tree: Tree) -> tuple[int, int]:
     """Return the tips of the two limbs that reach furthest in one direction, preferably down."""
-    limbs = []
+    reach: dict[tuple[tuple[int, int], int], float] = {}
+    down = np.array((0.0, 0.0, -1.0))
     for pair in combinations(tree.tips, 2):
-        shared = len(tree.path(tree.common(list(pair))))
-        counts = [len(tree.joints_on(tree.path(tip)[shared:])) for tip in pair]
-        if shared and min(counts) >= 3 and abs(counts[0] - counts[1]) <= 1:
-            limbs.append(pair)
-    if not limbs:
-        names = ", ".join(f"'{tree.name(tip)}'" for tip in tree.tips) or "none"
-        raise RobotError(
-            "no pair of legs found: expected two limbs of six joints on one body, "
-            f"the limbs end at {names}"
+        trunk = tree.common(list(pair))
+        counts = [len(tree.joints_on(tree.path(tip)[len(tree.path(trunk)) :])) for tip in pair]
+        if trunk and min(counts) >= LEG_JOINTS and abs(counts[0] - counts[1]) <= 1:
+            axes = (
+                sign * axis for axis in tree.rotation(tree.path(trunk)[0]).T for sign in (1, -1)
+            )
+            for number, axis in enumerate((down, *axes)):
+                ahead = [(tree.position(tip) - tree.position(trunk)) @ axis for tip in pair]
+                lowest = max(
+                    float((tree.position(t) - tree.position(trunk)) @ axis) for t in tree.tips
+                )
+                if min(ahead) > 0.5 * lowest:  # no third limb reaches much further
+                    reach[pair, number] = float(min(ahead))
+    if not reach:
+        limbs = ", ".join(
+            f"'{tree.name(tip)}' ({len(tree.joints_on(tree.path(tip)))} joints)"
+            for tip in tree.tips
         )
-    base = tree.path(limbs[0][0])[0]
-    start, down = tree.position(base), np.array((0.0, 0.0, -1.0))
-    axes = [down, *(sign * axis for axis, sign in product(tree.rotation(base).T, (1.0, -1.0)))]
-    reach = {
-        (pair, i): min(float((tree.position(tip) - start) @ axis) for tip in pair)
-        for pair in limbs
-        for i, axis in enumerate(axes)
-    }
+        raise RobotError(
+            f"no two legs found: expected two limbs of at least {LEG_JOINTS} joints, the lowest "
+            f"of the robot, on one body; its limbs end at {limbs or 'no joint at all'}"
+        )
     best = max(reach, key=lambda key: reach[key])
-    lowest = max((key for key in reach if key[1] == 0), key=lambda key: reach[key])
-    return lowest[0] if reach[lowest] > 0.6 * reach[best] else best[0]
+    standing = [key for key in reach if key[1] == 0 and reach[key] > 0.6 * reach[best]]
+    return max(standing, key=lambda key: reach[key], default=best)[0]
 
 
 def _base(tree: Tree, pelvis: int) -> int:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import mujoco.viewer
 
+from preview_walk.simulation.world import trunk_body
+
 if TYPE_CHECKING:
     from preview_walk.simulation.walk import Progress, Walk
 
@@ -21,7 +23,7 @@ def run_in_viewer(walk: Walk, progress: Progress | None = None) -> None:
     """
     world = walk.world
     with mujoco.viewer.launch_passive(world.model, world.data) as window:
-        body = world.model.body(walk.robot.pin.frames[walk.robot.torso].name).id
+        body = world.model.body(trunk_body(walk.robot)).id
         window.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
         window.cam.trackbodyid = body
         window.cam.distance = 3.2 * walk.robot.com_height

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
 from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.pattern import ComReference, WalkingPattern
+from preview_walk.planning.limits import GaitLimits
+from preview_walk.planning.pattern import PLANNING_DT, ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
+from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
 from preview_walk.planning.swing_trajectory import Swing
-from preview_walk.planning.zmp_trajectory import Sole
+from preview_walk.planning.support import Sole
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
@@ -73,6 +75,8 @@ class Walker:
         self.feet = {
             foot: FootState(True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
         }
+        self.step_limits = _step_limits(robot, self.pattern.omega)
+        self._adapt_at = -np.inf
         self.reference: ComReference | None = None
 
     @property
@@ -92,10 +96,36 @@ class Walker:
         """
         body = self.body
         body.update(q, v)
+        self._adapt(t)
         self._contacts(t, normal_force)
         self._track_com(t)
         self._track_torso(t)
         return body.torques(self._normal_limits(t))
+
+    def _adapt(self, t: float) -> None:
+        """Change the step in the air where the measured DCM asks for it."""
+        if t < self._adapt_at:
+            return
+        self._adapt_at = t + PLANNING_DT - 1e-9
+        pattern, dynamics = self.pattern, self.body.dynamics
+        step = pattern.plan.swing_at(t)
+        if step is None:
+            return
+        following = next((s for s in pattern.plan.steps if s.lift >= step.land), None)
+        pause = following.lift - step.land if following is not None else pattern.plan.settle
+        switch = step.land + 0.5 * pause
+        dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
+        plan = adapt_step(
+            pattern.plan,
+            t,
+            dcm,
+            (pattern.planned_dcm(t), pattern.planned_dcm(switch)),
+            dynamics.feet[step.foot].position,
+            self.step_limits,
+        )
+        if plan is not None:
+            pattern.plan = plan
+            pattern.rejoin(t, dynamics.com[:2])
 
     def _contacts(self, t: float, normal_force: dict[Foot, float]) -> None:
         """Follow the plan's lifts and landings, and what the soles feel."""
@@ -115,6 +145,8 @@ class Walker:
                 late = (t - step.lift) / (step.land - step.lift) > 0.7
                 if not state.contact and late and touching:
                     state.contact, state.since = True, t
+                if state.swing.end is not step.pose or state.swing.land != step.land:
+                    state.swing = state.swing.retarget(t, step.pose, step.land)
                 state.pose, task.velocity, task.acceleration = state.swing.at(t)
                 task.pose = state.pose
             else:
@@ -170,6 +202,23 @@ def _legs(robot: Robot, dynamics: Dynamics) -> LegGeometry:
     hip = leg_joints(robot.pin, robot.soles["left"].frame)[2]
     height = dynamics.data.oMi[hip].translation[2] - dynamics.feet["left"].position[2]
     return LegGeometry(robot.leg_length, float(height), robot.com_height)
+
+
+def _step_limits(robot: Robot, omega: float) -> StepLimits:
+    """Return what a recovery step of this robot may be, in proportion to its legs."""
+    half, leg = robot.soles["left"], robot.leg_length
+    sole = Sole(half.half_length, half.half_width)
+    gait = GaitLimits.for_leg(leg, robot.step_width, sole)
+    wide = robot.step_width + 0.45 * leg
+    pendulum = float(np.sqrt(leg / 9.81))
+    return StepLimits(
+        replace(gait, forward=0.7 * leg, backward=0.5 * leg, max_width=wide),
+        omega,
+        (0.8 * half.half_length, 0.8 * half.half_width),
+        (1.1 * pendulum, 3.5 * pendulum),
+        1.9 * float(np.sqrt(leg)),
+        TOLERANCE * leg,
+    )
 
 
 def _yaw(rotation: Array) -> float:

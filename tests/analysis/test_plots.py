@@ -119,7 +119,9 @@ def test_title_tells_where_the_walk_began() -> None:
 
 
 def test_bad_suffix_and_empty_record_get_one_sentence(record: Record, tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"a plot's file name must end in one of eps, .*, got"):
+    with pytest.raises(
+        InvalidInput, match=r"a plot's file name must end in one of .*eps, .*png, .*, got"
+    ):
         plot(record, tmp_path / "walk.xyz")
     empty = dataclasses.replace(
         record, **{name: array[:0] for name, array in record.arrays().items()}

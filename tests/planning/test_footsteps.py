@@ -76,9 +76,7 @@ def test_a_footstep_that_cannot_be_is_refused(arguments, sentence):
 
 def test_a_plan_needs_two_stance_soles_first():
     left, right = standing()
-    with raises(
-        "a plan must begin with one left and one right stance footstep, got left stance."
-    ):
+    with raises("a plan must begin with one left and one right stance footstep, got left stance."):
         FootstepPlan([left])
     with raises(
         "a plan must begin with one left and one right stance footstep, "

@@ -215,7 +215,7 @@ SWING = Swing(np.eye(4), pose_at(0.3, 0.0), 1.0, 2.0)
     [
         (
             lambda: Swing(np.eye(4), np.eye(4), 1.0, 1.0),
-            "a swing needs finite times (s) with lift < land, got lift 1.0 and land 1.0.",
+            "a swing needs finite times with lift < land, got 1.0 s, 1.0 s.",
         ),
         (
             lambda: Swing(np.eye(4), np.eye(4), 0.0, 1.0, -0.1),

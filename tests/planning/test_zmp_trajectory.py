@@ -55,13 +55,17 @@ def plans(draw):
 
 
 def margins(plan, times, zmp):
+    """Signed distance of the ZMP to the edge of the support polygon, a polygon for each phase."""
+    phase = np.array([-1 if (s := plan.swing_at(t)) is None else id(s) for t in times.tolist()])
+    landed = np.searchsorted([s.land for s in plan.steps], times, side="right")
+    cuts = np.flatnonzero(np.diff(phase) | np.diff(landed)) + 1
     result = []
-    for t, p in zip(times.tolist(), zmp, strict=True):
-        swing = plan.swing_at(t)
+    for span in np.split(np.arange(len(times)), cuts):
+        swing = plan.swing_at(float(times[span[0]]))
         feet = [f for f in FEET if swing is None or swing.foot != f]
-        polygon = support_polygon([plan.sole(f, t) for f in feet], SOLE)
-        result.append(float(support_margin(polygon, p)))
-    return np.array(result)
+        polygon = support_polygon([plan.sole(f, float(times[span[0]])) for f in feet], SOLE)
+        result.append(support_margin(polygon, zmp[span]))
+    return np.concatenate(result)
 
 
 @settings(max_examples=60)
@@ -70,7 +74,7 @@ def test_inside_the_true_support_polygon_at_every_instant(plan, margin):
     edges = np.array([e for s in plan.steps for e in (s.lift, s.land)])
     around = np.concatenate([edges + d for d in (-0.02, -1e-6, 0.0, 1e-6, 0.02)])
     t = np.sort(np.concatenate([around, np.linspace(-0.5, plan.end + 0.5, 150)]))
-    assert margins(plan, t, zmp_reference(plan, SOLE, margin).at(t)).min() > 0.0
+    assert margins(plan, t, zmp_reference(plan, SOLE, margin).at(t)).min() > -1e-9
 
 
 @settings(max_examples=60)
@@ -78,13 +82,10 @@ def test_inside_the_true_support_polygon_at_every_instant(plan, margin):
 def test_continuous_with_its_velocity(plan):
     ref = zmp_reference(plan, SOLE)
     knots = ref.times
-    h = 1e-9
-    speed = 1.0 + np.abs(ref.slopes).max()
-    assert np.abs(ref.at(knots + h) - ref.at(knots - h)).max() < 1e-7 * speed
-    jump = np.abs(ref.velocity(knots + h) - ref.velocity(knots - h)).max()
-    # Across 2 h the velocity may change by its derivative, at most ~ 6 m / (0.3 ms)^2.
-    assert jump < 1e-3 * speed
-    t = np.linspace(-0.3, plan.end + 0.3, 4001)
+    before = np.nextafter(knots, -np.inf)
+    assert np.allclose(ref.at(before), ref.at(knots), atol=1e-9)
+    assert np.allclose(ref.velocity(before), ref.velocity(knots), atol=1e-6)
+    t = np.linspace(-0.3, plan.end + 0.3, 1001)
     v = ref.velocity(t)
     middle = 0.5 * (t[1:] + t[:-1])
     step = t[1] - t[0]
@@ -133,11 +134,9 @@ def test_a_very_short_double_support_is_crossed_from_sole_to_sole():
     # At landing the ZMP is at the tip of the standing sole, 2 cm from its edge.
     assert ref.at(s.land)[0] - stance[0] == pytest.approx(0.08)
     assert ref.at(s.land - 0.05) == pytest.approx(stance, abs=1e-12)
-    # In double support it goes uniformly, as slowly as it can.
-    speed = np.linalg.norm(ref.velocity(np.linspace(s.land, plan.steps[4].lift, 9)), axis=1)
-    assert speed == pytest.approx(speed[0])
-    step_only = 1.5 * np.hypot(0.5, 0.17) / 0.031
-    assert speed[0] < 0.6 * step_only
+    # It goes half as fast as a cubic over the double support alone would.
+    speed = np.linalg.norm(ref.velocity(np.linspace(s.land, plan.steps[4].lift, 99)), axis=1)
+    assert speed.max() < 0.55 * 1.5 * np.hypot(0.5, 0.17) / 0.031
 
 
 def test_a_stand_is_rested_at_midfeet():

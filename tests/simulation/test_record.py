@@ -20,10 +20,10 @@ from preview_walk.simulation.record_fields import FIELDS, field_table
 from preview_walk.simulation.recorder import Recorder, package_versions
 
 SIZES = {"nq": 10, "nv": 9, "nu": 3}
-ASKED_FOR = (
-    "time q v tau com com_ref dcm dcm_ref zmp zmp_ref left_foot right_foot left_foot_ref "
-    "right_foot_ref left_force right_force phase phase_ref tick_time qp_time qp_iterations qp_status"
-)
+ASKED_FOR = """
+    time q v tau com com_ref dcm dcm_ref zmp zmp_ref left_foot right_foot left_foot_ref
+    right_foot_ref left_force right_force phase phase_ref tick_time qp_time qp_iterations qp_status
+"""
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,178 @@
+"""Step adaptation: where and when the swing foot lands so that a pushed walker can go on.
+
+The divergent component of motion (DCM) xi = c + c' / omega runs away from the ZMP p:
+xi' = omega (xi - p) (Takenaka 2009; Englsberger, Ott and Albu-Schaeffer 2015, eq. 6). Over the
+rest of a step, with the ZMP moved by a constant delta from where the plan has it, the error e of
+the DCM grows by tau = exp(omega T) to
+
+    e(T) = e tau - delta (tau - 1)
+
+While the sole leaves room for the delta that brings e(T) to zero the plan is kept. Otherwise the
+landing moves, by place and by time (Khadiv et al. 2020; Griffin et al. 2017): among landing times
+within the limits, the one is taken whose foothold leaves the next step the DCM nearest to the
+plan's offset from its foot, then nearest to the plan. Each time is a problem of two variables an
+axis (foothold and delta) in a box, solved exactly; all times at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.limits import GaitLimits
+from preview_walk.planning.pose import compose, heading_of, pose_at
+from preview_walk.types import Array
+
+TIMES = 40
+"""Landing times that are compared."""
+
+OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT = 100.0, 1.0, 0.05, 0.05
+"""Squared metres of DCM offset, of foothold, squared seconds of landing time, squared metres of
+ZMP: the offset comes first."""
+
+TOLERANCE = 0.02
+"""Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
+
+LATEST = 0.05
+"""A landing nearer than this (s) is not changed any more."""
+
+
+@dataclass(frozen=True)
+class StepLimits:
+    """What a recovery step may be.
+
+    Attributes:
+        gait: reach and clearance.
+        omega: natural frequency of the pendulum (1/s).
+        zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
+        swing_time: shortest and longest time in the air (s).
+        swing_speed: mean speed (m/s) that the swing foot can reach.
+        tolerance: error of the DCM (m) at landing that needs no answer.
+    """
+
+    gait: GaitLimits
+    omega: float
+    zmp: tuple[float, float]
+    swing_time: tuple[float, float]
+    swing_speed: float
+    tolerance: float
+
+
+def adapt_step(
+    plan: FootstepPlan,
+    t: float,
+    dcm: Array,
+    planned: tuple[Array, Array],
+    foot_now: Array,
+    limits: StepLimits,
+) -> FootstepPlan | None:
+    """Return the plan whose step in the air answers a DCM error, or None where none is needed.
+
+    Later steps keep their places relative to the changed one and their times after it.
+
+    Args:
+        plan: the walk; some foot must be in the air at t.
+        t: now (s).
+        dcm: (2,) measured DCM in the world (m).
+        planned: the plan's DCM (2,) now and at the middle of the double support after the landing.
+        foot_now: (3,) position of the swinging sole (m).
+        limits: what a recovery step may be.
+    """
+    step = plan.swing_at(t)
+    if step is None or step.land - t < LATEST:
+        return None
+    following = next((s for s in plan.steps if s.lift >= step.land), None)
+    pause = following.lift - step.land if following is not None else plan.settle
+    half_pause = 0.5 * min(pause, plan.settle)
+    omega = limits.omega
+    tau = exp(omega * (step.land + half_pause - t))
+    error = dcm - planned[0]
+    stance = plan.sole("right" if step.foot == "left" else "left", t)
+    axes = stance[:2, :2]
+    local = error @ axes
+    # What the ZMP may move by, from the plan's mean ZMP over the rest of the step.
+    mean = ((planned[1] - tau * planned[0]) / (1.0 - tau) - stance[:2, 3]) @ axes
+    room = np.array(limits.zmp)
+    low, high = np.minimum(-room - mean, 0.0), np.maximum(room - mean, 0.0)
+    grown = local * tau
+    rest = grown - np.clip(grown / (tau - 1.0), low, high) * (tau - 1.0)
+    if np.abs(rest).max() <= limits.tolerance:
+        return None
+    return _best(plan, step, t, dcm, planned, foot_now, limits, half_pause, mean, low, high)
+
+
+def _best(
+    plan: FootstepPlan,
+    step: Footstep,
+    t: float,
+    dcm: Array,
+    planned: tuple[Array, Array],
+    foot_now: Array,
+    limits: StepLimits,
+    half_pause: float,
+    mean: Array,
+    low: Array,
+    high: Array,
+) -> FootstepPlan:
+    stance = plan.sole("right" if step.foot == "left" else "left", t)
+    axes, origin = stance[:2, :2], stance[:2, 3]
+    side = 1.0 if step.foot == "left" else -1.0
+    gait = limits.gait
+    goal = (step.pose[:2, 3] - origin) @ axes
+    offset = (planned[1] - step.pose[:2, 3]) @ axes
+    start = (dcm - origin) @ axes
+    now = (foot_now[:2] - origin) @ axes
+
+    first = max(t + LATEST, step.lift + limits.swing_time[0])
+    last = max(step.lift + limits.swing_time[1], first + LATEST)
+    land = np.append(np.linspace(first, last, TIMES), max(step.land, first))
+    tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
+    # Footholds: reach of the leg, and what the swing foot can still get to.
+    span = (limits.swing_speed * (land - t))[:, None]
+    reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
+    reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
+    place_low = np.clip(now - span, reach_low, reach_high)
+    place_high = np.clip(now + span, reach_low, reach_high)
+
+    # foothold + offset' = start tau - (mean + delta) (tau - 1): the DCM at landing.
+    free = start * tau - mean * (tau - 1.0)
+    lever = tau - 1.0
+    delta = np.zeros_like(free)
+    place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
+    w, s, z = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT
+    for _ in range(30):  # coordinate descent: convex, two variables, a box
+        place = np.clip(
+            (w * (free - lever * delta - offset) + s * goal) / (w + s), place_low, place_high
+        )
+        delta = np.clip(
+            w * lever * (free - offset - place) / (w * lever * lever + z), low, high
+        )
+    miss = free - lever * delta - offset - place
+    cost = (w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
+    cost += TIME_WEIGHT * (land - step.land) ** 2
+    best = int(np.argmin(cost))
+    x, y = place[best].tolist()
+    heading = heading_of(stance)
+    turn = heading_of(step.pose)[2] - heading[2]
+    sole = gait.clamp(step.foot, heading, compose(heading, x, y, turn))
+    pose = pose_at(*sole, float(step.pose[2, 3]))
+    return shifted(plan, t, pose, float(land[best]))
+
+
+def shifted(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepPlan:
+    """Return the plan whose step in the air lands at `pose` at `land`; later steps move with it."""
+    step = plan.swing_at(t)
+    assert step is not None
+    index = plan.steps.index(step)
+    move = np.eye(4)
+    move[:3, 3] = pose[:3, 3] - step.pose[:3, 3]
+    delay = land - step.land
+    later = [
+        Footstep(s.foot, move @ s.pose, s.lift + delay, s.land + delay)
+        for s in plan.steps[index + 1 :]
+    ]
+    moved = plan.retarget(t, pose, land)
+    return moved.replace_after(t, later)

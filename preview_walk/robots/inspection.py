@@ -1,0 +1,173 @@
+"""`inspect_robot`: what was found in a model, what was assumed, and what will not work."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+
+from preview_walk.errors import RobotError
+from preview_walk.robots.description import Description, describe
+from preview_walk.robots.load import load_robot
+from preview_walk.robots.picture import write_picture
+from preview_walk.robots.posture import walking_posture
+from preview_walk.robots.robot import Robot
+from preview_walk.robots.source import read_source
+from preview_walk.types import FEET, Array
+
+
+@dataclass(frozen=True, eq=False)
+class Inspection:
+    """What is known about a model: each entry is one line; `robot` is None if it cannot walk.
+
+    `found` is read from the model, `assumed` was adapted or guessed, `missing` would be nice to
+    have, `problems` will not work.
+    """
+
+    source: str
+    found: tuple[str, ...]
+    assumed: tuple[str, ...]
+    missing: tuple[str, ...]
+    problems: tuple[str, ...]
+    robot: Robot | None
+
+    def __str__(self) -> str:
+        """Return the report."""
+        parts = [self.source]
+        for title, lines in (
+            ("found", self.found),
+            ("assumed or adapted", self.assumed),
+            ("missing", self.missing),
+            ("will not work", self.problems),
+        ):
+            parts.append(f"\n{title}:")
+            parts += [f"  - {line}" for line in lines] or ["  nothing"]
+        return "\n".join(parts)
+
+    def write_picture(self, path: str | Path) -> None:
+        """Write a picture of the stance with the soles in red (left) and green (right).
+
+        Raises `RobotError` where the model cannot stand.
+        """
+        if self.robot is None:
+            raise RobotError(f"no picture of '{self.source}': {self.problems[0]}")
+        write_picture(self.robot, Path(path))
+
+
+def inspect_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Inspection:
+    """Return what is found, assumed, missing and wrong in a robot's model; never raises for it.
+
+    `model` is what `load_robot` takes.
+    """
+    source = str(model) if isinstance(model, (str, Path)) else "the model in hand"
+    try:
+        robot = load_robot(model)
+    except RobotError as error:
+        return Inspection(source, _contents(model), (), (), (str(error),), None)
+    return Inspection(
+        source, _found(robot), robot.notes, _missing(robot), one_leg_problems(robot), robot
+    )
+
+
+def _contents(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> tuple[str, ...]:
+    """Return what can be said about a model that is no robot."""
+    try:
+        given: Description | mujoco.MjModel
+        if isinstance(model, mujoco.MjSpec):
+            given = model.copy().compile()
+        else:
+            given = model if isinstance(model, mujoco.MjModel) else describe(model)
+        tree = read_source(given).tree
+    except (RobotError, ValueError):
+        return ()
+    tips = ", ".join(tree.name(tip) for tip in tree.tips)
+    joints = len(tree.joints_on(list(range(1, tree.mj.nbody))))
+    return (
+        f"{tree.mj.nbody - 1} bodies, {joints} joints, {tree.mj.nu} actuators, "
+        f"{tree.mj.body_mass.sum():.1f} kg",
+        f"limbs end at: {tips or 'none'}",
+    )
+
+
+def _found(robot: Robot) -> tuple[str, ...]:
+    """Return what the model says about itself."""
+    tree, model = robot.blueprint.tree, robot.pin
+    lines = [
+        f"{robot.mass:.1f} kg, {len(robot.joint_names)} joints, {robot.mj.nu} motors",
+        f"base '{tree.name(robot.blueprint.base)}', trunk on the joint "
+        f"'{model.names[model.frames[robot.torso].parentJoint]}'",
+    ]
+    for foot in FEET:
+        leg, sole = robot.legs[foot], robot.soles[foot]
+        lines.append(
+            f"{foot} leg: {', '.join(model.names[j] for j in leg.joints)}; knee "
+            f"'{model.names[leg.knee]}'"
+        )
+        lines.append(
+            f"{foot} sole on '{robot.blueprint.soles[foot].body}': "
+            f"{2 * sole.half_length:.3f} x {2 * sole.half_width:.3f} m"
+        )
+    lines.append(
+        f"leg length {robot.leg_length:.3f} m; in the walking posture the CoM is "
+        f"{robot.com_height:.3f} m high and the soles are {robot.step_width:.3f} m apart"
+    )
+    return tuple(lines)
+
+
+def _missing(robot: Robot) -> tuple[str, ...]:
+    """Return what a better model would hold."""
+    lines = []
+    for what, lacking in (
+        ("motors (these joints hang loose)", robot.effort == 0.0),
+        ("position limits", np.isinf(robot.q_lower) & np.isinf(robot.q_upper)),
+        ("speed limits", np.isinf(robot.v_limit)),
+    ):
+        names = [name for name, lacks in zip(robot.joint_names, lacking, strict=True) if lacks]
+        if len(names) == len(robot.joint_names):
+            lines.append(f"{what}: none of the joints has any")
+        elif names:
+            lines.append(f"{what}: {', '.join(names)}")
+    return tuple(lines)
+
+
+def one_leg_torques(robot: Robot) -> Array:
+    """Return the torques (nv - 6,) in N·m that hold the robot still over its left sole.
+
+    Statics: the CoM above the sole's centre, all weight on it. Raises `RobotError` where the legs
+    cannot lean so far.
+    """
+    model = robot.pin
+    q = walking_posture(
+        model,
+        robot.posture,
+        {foot: robot.soles[foot].frame for foot in FEET},
+        robot.legs,
+        robot.step_width,
+        lean=robot.step_width / 2,
+    )
+    data = model.createData()
+    gravity = pin.computeGeneralizedGravity(model, data, q)
+    pin.computeJointJacobians(model, data, q)
+    pin.updateFramePlacements(model, data)
+    jacobian = pin.getFrameJacobian(
+        model, data, robot.soles["left"].frame, pin.ReferenceFrame.LOCAL
+    )
+    wrench = np.linalg.solve(jacobian[:, :6].T, gravity[:6])
+    return np.asarray((gravity - jacobian.T @ wrench)[6:])
+
+
+def one_leg_problems(robot: Robot) -> tuple[str, ...]:
+    """Return which motors are too weak to stand on one leg, in words."""
+    try:
+        torques = np.abs(one_leg_torques(robot))
+    except RobotError as error:
+        return (f"standing on one leg: {error}",)
+    return tuple(
+        f"the joint '{name}' needs {torque:.1f} N·m to stand on one leg, its motor gives "
+        f"{effort:.1f} N·m"
+        for name, torque, effort in zip(robot.joint_names, torques, robot.effort, strict=True)
+        if torque > effort > 0.0
+    )
