@@ -9,6 +9,8 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,7 +51,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         command = shlex.join(["preview-walk", *(sys.argv[1:] if argv is None else argv)])
         return _run(options, command)
     except OutputError as error:
-        complain(f"--out: {error} Choose a folder that can be written, with space left.")
+        reason = str(error).rstrip(".")
+        complain(f"--out: {reason}; choose a folder that can be written, with space left.")
         return BAD_INPUT
     except PreviewWalkError as error:
         complain(str(error))
@@ -88,10 +91,12 @@ def _run(options: Options, command: str) -> int:
     record = record.with_settings(command=command)
     stopped = bool(record.settings.get("interrupted"))
     if stopped:
-        print(f"Stopped by Ctrl-C after {len(record) * record.dt:.2f} s; this is the walk so far.")
-    print(record.summary())
-    written = _write(record, robot, options.out, video=options.video and not stopped)
-    print(f"Written to {options.out}: {', '.join(path.name for path in written)}")
+        _say(f"Stopped by Ctrl-C after {len(record) * record.dt:.2f} s; this is the walk so far.")
+    _say(str(record.summary()))
+    written, failure = _write(record, robot, options.out, video=options.video and not stopped)
+    _say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
+    if failure is not None:
+        raise failure
     if stopped:
         return STOPPED
     return FELL if record.settings.get("fell") else WALKED
@@ -121,25 +126,53 @@ def _pushes(options: Options, plan: FootstepPlan) -> tuple[Push, ...]:
     return tuple(Push(time, duration, force) for time, duration, force in options.pushes)
 
 
-def _write(record: Record, robot: Robot, folder: Path, *, video: bool) -> list[Path]:
-    """Write everything to the folder, most precious first; return the paths."""
-    from preview_walk.analysis import PLOTS, plot, plot_all
+def _write(
+    record: Record, robot: Robot, folder: Path, *, video: bool
+) -> tuple[list[str], OutputError | None]:
+    """Write everything to the folder, most precious first.
+
+    Returns the names of the files written and the first failure: where a disk has no room for the
+    record, it may have for the figures.
+    """
+    from preview_walk.analysis import PLOTS, plot, save_plot
+
+    writers: dict[str, Callable[[Path], object]] = {
+        "record.npz": record.save,
+        "summary.json": record.summary().write,
+        "walk.png": partial(plot, record),
+        **{f"{name}.png": partial(save_plot, record, name) for name in PLOTS},
+        "walk.mp4": partial(_film, record, robot),
+    }
+    for name in writers:  # nothing may stay that could be taken for a part of this run
+        (folder / name).unlink(missing_ok=True)
+    if not len(record):
+        writers = {name: writers[name] for name in ("record.npz", "summary.json")}
+    elif not video:
+        del writers["walk.mp4"]
+    written: list[str] = []
+    failure: OutputError | None = None
+    for name, write in writers.items():
+        try:
+            write(folder / name)
+            written.append(name)
+        except OutputError as error:
+            failure = failure or error
+    return written, failure
+
+
+def _film(record: Record, robot: Robot, path: Path) -> None:
     from preview_walk.simulation.video import render_video
 
-    movie = folder / "walk.mp4"
-    # Of an earlier run nothing may stay that could be taken for a part of this one.
-    for old in (folder / "record.npz", folder / "summary.json", folder / "walk.png", movie):
-        old.unlink(missing_ok=True)
-    for name in PLOTS:
-        (folder / f"{name}.png").unlink(missing_ok=True)
-    written = [record.save(folder / "record.npz"), record.summary().write(folder / "summary.json")]
-    if len(record):
-        written += [plot(record, folder / "walk.png"), *plot_all(record, folder)]
-    if video:
-        with _naming("--video"), whole_file(movie) as part:
-            render_video(record, robot, part)
-        written.append(movie)
-    return written
+    with _naming("--video"), whole_file(path) as part:
+        render_video(record, robot, part)
+
+
+def _say(text: str) -> None:
+    """Print to stdout, whose reader may have gone (as in `preview-walk | head -1`)."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        sys.stdout = StringIO()
 
 
 @contextmanager

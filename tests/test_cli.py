@@ -49,8 +49,7 @@ def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(pw, "simulate", made)
     if not request.node.get_closest_marker("real_plots"):
         monkeypatch.setattr(analysis, "plot", lambda _, path: _blank(path))
-        names = [f"{name}.png" for name in PLOTS]
-        monkeypatch.setattr(analysis, "plot_all", lambda _, at: [_blank(at / n) for n in names])
+        monkeypatch.setattr(analysis, "save_plot", lambda _, name, path: _blank(path))
     monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, step_width=0.17))
     return made
 
@@ -213,8 +212,8 @@ def test_a_folder_that_cannot_be_made_is_told_before_the_walk(
     taken.write_text("a file")
     assert run(taken) == 2
     assert complaint(capsys) == (
-        f"preview-walk: --out: cannot make the folder {taken}: File exists. "
-        "Choose a folder that can be written, with space left."
+        f"preview-walk: --out: cannot make the folder {taken}: File exists; "
+        "choose a folder that can be written, with space left."
     )
     assert simulation.calls == []
     assert taken.read_text() == "a file"
@@ -232,17 +231,17 @@ def test_a_full_disk_leaves_whole_files_or_none_and_one_sentence(
 
     def full(descriptor: int) -> None:
         calls.append(descriptor)
-        if len(calls) > 1:  # the record fits, the summary does not
+        if len(calls) == 1:  # no room for the record, but for the summary
             raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(files.os, "fsync", full)
     assert run(out) == 2
     assert complaint(capsys) == (
-        f"preview-walk: --out: cannot write {out / 'summary.json'}: No space left on device. "
-        "Choose a folder that can be written, with space left."
+        f"preview-walk: --out: cannot write {out / 'record.npz'}: No space left on device; "
+        "choose a folder that can be written, with space left."
     )
-    assert {path.name for path in out.iterdir()} == {"record.npz"}
-    assert len(Record.load(out / "record.npz")) > 0
+    assert {path.name for path in out.iterdir()} == OUTPUTS - {"record.npz"}
+    assert json.loads((out / "summary.json").read_text())["steps"] == 4
 
 
 def test_nothing_of_an_earlier_run_stays(simulation: Simulation, out: Path) -> None:

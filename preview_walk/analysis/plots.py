@@ -116,6 +116,20 @@ def plot(record: Record, path: str | os.PathLike[str]) -> Path:
     return save_figure(overview(record), path)
 
 
+def save_plot(record: Record, name: str, path: str | os.PathLike[str]) -> Path:
+    """Write the plot of that name in `PLOTS` to one picture; return its path.
+
+    Raises:
+        InvalidInput: there is no such plot, the record is empty, or matplotlib does not know the
+            suffix.
+        OutputError: the file cannot be written.
+    """
+    if name not in PLOTS:
+        raise InvalidInput(f"a plot's name must be one of {', '.join(PLOTS)}, got '{name}'.")
+    _require_ticks(record)
+    return save_figure(PLOTS[name](record), path)
+
+
 def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
     """Write every plot of `PLOTS` to an existing folder as `NAME.png`; return their paths.
 
@@ -123,8 +137,7 @@ def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
         InvalidInput: the record is empty.
         OutputError: a file cannot be written.
     """
-    _require_ticks(record)
-    return [save_figure(draw(record), Path(folder, f"{name}.png")) for name, draw in PLOTS.items()]
+    return [save_plot(record, name, Path(folder, f"{name}.png")) for name in PLOTS]
 
 
 def _require_ticks(record: Record) -> None:

@@ -26,7 +26,7 @@ class Summary:
     - `speed` (m/s): that path over its time, between landings a quarter and three quarters through
       the walk.
     - `final_position_error` (m), `final_yaw_error` (rad): the worse sole at the end of the record,
-      against the last poses of the plan.
+      against the last poses of the plan; None for a walk that was interrupted.
     - `com_error_rms` [x, y, z], `zmp_error_rms` [x, y] (m): measured minus reference over all
       ticks; x is the planned heading of the moment, so that they do not depend on where the robot
       faces.
@@ -172,6 +172,8 @@ def _path(record: Record, times: Array) -> float:
 
 def _final_errors(record: Record) -> tuple[float | None, float | None]:
     if not len(record) or not len(record.plans):
+        return None, None
+    if record.settings.get("interrupted") and record.time[-1] < record.plans[-1].end:
         return None, None
     position, angle = [], []
     for foot in FEET:

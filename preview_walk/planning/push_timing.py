@@ -22,7 +22,7 @@ MOST_STEPS = 6
 # Who stands may shift the weight before the first foot lifts; this delay is searched on a grid (s).
 _DELAYS = tuple(0.05 * i for i in range(7))
 # Swing times are found to this (s); the bound is flat at its best times.
-_FINEST = 5e-4
+_FINEST = 3e-5
 # The disc that limits a swing is a polygon inside it, so the whole way takes a little longer.
 _DETOUR = 1.01
 

@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
+from preview_walk.errors import RobotError
 from preview_walk.robots.agreement import check_agreement
 from preview_walk.robots.assemble import assemble, sole_name
 from preview_walk.robots.description import Description
@@ -40,11 +41,16 @@ def build_robot(description: Description, source: Source) -> Robot:
     mimics = {} if source.urdf is None else source.urdf.mimics
     locked, settled = settle(tree, parts.base, leg_joints, mimics)
     efforts, pushed = joint_efforts(tree, source.urdf is not None, mass)
+    for joint in sorted(leg_joints - {j for j, effort in efforts.items() if effort > 0.0}):
+        raise RobotError(
+            f"the leg joint '{tree.joint_name(joint)}' has no motor; "
+            "expected one on every leg joint"
+        )
     soles, seen = _soles(description, source, parts)
     spec, changed = rebuild(tree, parts.base, locked, looks=False)
     motors = {tree.joint_name(joint): effort for joint, effort in efforts.items()}
     assemble(spec, soles, motors)
-    mj = compile_spec(spec, "the robot")
+    mj, _ = compile_spec(spec, "the robot")
     model = pinocchio_model(mj, root=1)
     frames = {foot: _sole_frame(mj, model, foot) for foot in FEET}
     check_agreement(mj, model, {foot: (sole_name(foot), frames[foot].frame) for foot in FEET})
@@ -89,7 +95,7 @@ def build_robot(description: Description, source: Source) -> Robot:
         legs=legs,
         notes=(*source.notes, *parts.notes, *settled, *pushed, *seen, *changed, *freed_note),
         blueprint=Blueprint(
-            tree, parts.base, frozenset(locked), tuple(freed), soles, motors, source.urdf
+            tree, parts, frozenset(locked), tuple(freed), soles, motors, source.urdf
         ),
     )
 

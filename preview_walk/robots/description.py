@@ -79,6 +79,8 @@ def read_description(path: Path) -> Description:
     """Return the description in a JSON file; raises `RobotError` where a fact is missing or odd."""
     try:
         facts = json.loads(path.read_text())
+        if "model" not in facts:
+            raise RobotError(f"the description '{path.name}' lacks 'model', the path of its model")
         soles: dict[Foot, SoleFact] = {
             foot: SoleFact(
                 sole["body"],
@@ -89,12 +91,19 @@ def read_description(path: Path) -> Description:
         }
         model = str(facts["model"])
         unknown = set(facts) - {"title", "model", "torso", "soles", "posture"}
+    except RobotError:
+        raise
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RobotError(f"cannot read the description '{path.name}': {error!r}") from error
-    if unknown or set(soles) not in (set(), set(FEET)):
+        raise RobotError(f"cannot read the description '{path.name}': {error}") from error
+    if unknown:
         raise RobotError(
-            f"the description '{path.name}' holds {', '.join(sorted(unknown | set(soles)))}; "
-            "expected title, model, torso, posture and soles (left and right)"
+            f"the description '{path.name}' holds {', '.join(sorted(unknown))}; "
+            "expected title, model, torso, soles and posture only"
+        )
+    if set(soles) not in (set(), set(FEET)):
+        raise RobotError(
+            f"the description '{path.name}' describes the soles {', '.join(sorted(soles))}; "
+            "expected left and right, or neither"
         )
     if not model.startswith(SHIPPED):
         model = str((path.parent / model).resolve())

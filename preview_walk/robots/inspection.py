@@ -12,9 +12,11 @@ import pinocchio as pin
 from preview_walk.errors import RobotError
 from preview_walk.robots.description import Description, describe
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.mjcf import compile_spec
 from preview_walk.robots.picture import write_picture
 from preview_walk.robots.posture import walking_posture
 from preview_walk.robots.robot import Robot
+from preview_walk.robots.shapes import add_shapes
 from preview_walk.robots.source import read_source
 from preview_walk.types import FEET, Array
 
@@ -77,11 +79,11 @@ def _contents(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> tuple[str, 
     try:
         given: Description | mujoco.MjModel
         if isinstance(model, mujoco.MjSpec):
-            given = model.copy().compile()
+            given = compile_spec(model.copy(), "the spec")[0]
         else:
             given = model if isinstance(model, mujoco.MjModel) else describe(model)
         tree = read_source(given).tree
-    except (RobotError, ValueError):
+    except RobotError:
         return ()
     tips = ", ".join(tree.name(tip) for tip in tree.tips)
     joints = len(tree.joints_on(list(range(1, tree.mj.nbody))))
@@ -94,11 +96,10 @@ def _contents(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> tuple[str, 
 
 def _found(robot: Robot) -> tuple[str, ...]:
     """Return what the model says about itself."""
-    tree, model = robot.blueprint.tree, robot.pin
+    tree, parts, model = robot.blueprint.tree, robot.blueprint.parts, robot.pin
     lines = [
         f"{robot.mass:.1f} kg, {len(robot.joint_names)} joints, {robot.mj.nu} motors",
-        f"base '{tree.name(robot.blueprint.base)}', trunk on the joint "
-        f"'{model.names[model.frames[robot.torso].parentJoint]}'",
+        f"base '{tree.name(parts.base)}', trunk '{tree.name(parts.torso)}'",
     ]
     for foot in FEET:
         leg, sole = robot.legs[foot], robot.soles[foot]
@@ -130,6 +131,11 @@ def _missing(robot: Robot) -> tuple[str, ...]:
             lines.append(f"{what}: none of the joints has any")
         elif names:
             lines.append(f"{what}: {', '.join(names)}")
+    urdf = robot.blueprint.urdf
+    if urdf is not None:
+        lost = sorted(set(add_shapes(urdf, urdf.spec.copy(), "visual")))
+        if lost:
+            lines.append(f"visual meshes that are not found or not readable: {', '.join(lost)}")
     return tuple(lines)
 
 

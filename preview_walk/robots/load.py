@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
+from preview_walk.errors import RobotError
 from preview_walk.robots.assemble import assemble
 from preview_walk.robots.build import build_robot
 from preview_walk.robots.description import Description, describe
@@ -16,6 +18,9 @@ from preview_walk.robots.robot import Robot
 from preview_walk.robots.shapes import add_bones, add_shapes
 from preview_walk.robots.source import read_source
 
+IN_HAND = Description("robot", "MuJoCo model in hand", "MjModel")
+"""What is known beforehand of a model that was not loaded from a file."""
+
 
 def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     """Return a robot by its catalogue name, its .urdf, .xml or .json file, or a MuJoCo model.
@@ -23,9 +28,14 @@ def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     Raises `RobotError` for an unknown name or a model that cannot walk.
     """
     if isinstance(model, mujoco.MjSpec):
-        model = compile_spec(model.copy(), "the spec")
+        model, notes = compile_spec(model.copy(), "the spec")
+        return build_robot(IN_HAND, replace(read_source(model), notes=notes))
     if isinstance(model, mujoco.MjModel):
-        return build_robot(Description("robot", "MuJoCo model", "MjModel"), read_source(model))
+        return build_robot(IN_HAND, read_source(model))
+    if not isinstance(model, (str, Path)):
+        raise RobotError(
+            f"expected a robot's name, a path, an MjModel or an MjSpec, got {type(model).__name__}"
+        )
     description = describe(model)
     return build_robot(description, read_source(description))
 
@@ -37,7 +47,7 @@ def visual_model(robot: Robot) -> mujoco.MjModel:
     left out; a robot that has none at all is drawn as bones from joint to joint.
     """
     plan = robot.blueprint
-    spec, _ = rebuild(plan.tree, plan.base, plan.locked, looks=plan.urdf is None)
+    spec, _ = rebuild(plan.tree, plan.parts.base, plan.locked, looks=plan.urdf is None)
     if plan.urdf is not None:
         add_shapes(plan.urdf, spec, "visual")
     if not spec.geoms:

@@ -2,31 +2,57 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from pathlib import Path
 
 import mujoco
+import numpy as np
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.inertia import MASSLESS, NO_MASS, usable_inertia
 from preview_walk.robots.tree import Tree
+
+STANDING = ("stand", "standing", "home", "default", "init", "initial", "neutral", "half_sitting")
+"""Names of keyframes whose arms and trunk the walking posture takes over."""
 
 _Eq, _Trn = mujoco.mjtEq, mujoco.mjtTrn
 _TENDON = int(_Trn.mjTRN_TENDON)
 _SITE = int(mujoco.mjtObj.mjOBJ_SITE)
 
 
-def compile_spec(spec: mujoco.MjSpec, source: str) -> mujoco.MjModel:
-    """Return a compiled spec; raises `RobotError` with MuJoCo's own words where it cannot be."""
-    try:
-        return spec.compile()
-    except (ValueError, RuntimeError) as error:
-        raise RobotError(f"MuJoCo cannot compile {source}: {_sentence(error)}") from error
+def compile_spec(spec: mujoco.MjSpec, source: str) -> tuple[mujoco.MjModel, tuple[str, ...]]:
+    """Return a compiled spec and remarks; moving bodies without mass are given a little.
+
+    Raises `RobotError` for masses that cannot be, else with MuJoCo's own words where it cannot be
+    compiled.
+    """
+    for body in spec.bodies:
+        if body.explicitinertial:
+            inertia = np.diag(body.inertia)
+            usable_inertia(body.name, float(body.mass), inertia, moving=False)
+    light: list[str] = []
+    while True:
+        try:
+            model = spec.compile()
+        except (ValueError, RuntimeError) as error:
+            named = re.search(
+                r"moving bodies must be larger.*Element name '([^']+)'", str(error), re.S
+            )
+            body = spec.body(named.group(1)) if named else None
+            if body is None or body.name in light:
+                raise RobotError(f"MuJoCo cannot compile {source}: {_sentence(error)}") from error
+            body.explicitinertial, body.fullinertia[0] = True, np.nan
+            body.mass, body.inertia = max(float(body.mass), MASSLESS[0]), [MASSLESS[1]] * 3
+            light.append(body.name)
+        else:
+            return model, ((f"{NO_MASS}: {', '.join(light)}",) if light else ())
 
 
-def read_mjcf(path: Path) -> mujoco.MjModel:
-    """Return the compiled model of an MJCF file.
+def read_mjcf(path: Path) -> tuple[mujoco.MjModel, tuple[str, ...]]:
+    """Return the compiled model of an MJCF file, and remarks.
 
-    Raises `RobotError` with MuJoCo's own words where it cannot be read or compiled.
+    Raises `RobotError` where it cannot be read or compiled, mostly with MuJoCo's own words.
     """
     try:
         spec = mujoco.MjSpec.from_file(str(path))
@@ -97,16 +123,17 @@ def settle(
 
 
 def keyframe_angles(tree: Tree) -> tuple[dict[str, float], str]:
-    """Return the joint angles of the keyframe that stands best, by joint name, and its name.
+    """Return the joint angles of the keyframe in which the robot stands, by joint name; its name.
 
-    One called stand, else home, else the first; ({}, "") where there is none.
+    The one called stand, home, default or the like, else the only one; ({}, "") without it.
     """
     mj = tree.mj
     names = [str(mj.key(key).name) or f"key_{key}" for key in range(mj.nkey)]
-    wish = [key for word in ("stand", "home") for key, n in enumerate(names) if word in n.lower()]
-    if not names:
+    standing = [key for key, name in enumerate(names) if name.lower() in STANDING]
+    standing += [0] if len(names) == 1 else []
+    if not standing:
         return {}, ""
-    key = (wish or [0])[0]
+    key = standing[0]
     moving = tree.joints_on(list(range(1, mj.nbody)))
     angles = {tree.joint_name(j): float(mj.key_qpos[key, mj.jnt_qposadr[j]]) for j in moving}
     return angles, names[key]

@@ -10,6 +10,7 @@ import pinocchio as pin
 
 from preview_walk.robots.posture import Leg
 from preview_walk.robots.soles import SolePatch
+from preview_walk.robots.structure import Structure
 from preview_walk.robots.tree import Tree
 from preview_walk.robots.urdf import Urdf
 from preview_walk.types import Array, Foot
@@ -29,12 +30,12 @@ class RobotSole:
 class Blueprint:
     """What a robot was built from: enough to build its MuJoCo model again, with its looks.
 
-    The tree of the source model, its base body, the joints (ids) locked and the joints (names)
-    freed of their limits, the soles, the motors' limits (N·m) and the URDF if it was one.
+    The tree of the source model and what stands for what in it, the joints (ids) locked and the
+    joints (names) freed of their limits, the soles, the motors' limits (N·m) and the URDF, if any.
     """
 
     tree: Tree
-    base: int
+    parts: Structure
     locked: frozenset[int]
     unlimited: tuple[str, ...]
     soles: Mapping[Foot, SolePatch]

@@ -92,7 +92,7 @@ def inscribed_rectangle(points: Array) -> tuple[float, float, float, float]:
     x = np.unique(np.concatenate((hull[:, 0], np.linspace(hull[start, 0], hull[stop, 0], 101))))
     floor, roof = -_roof(x, lower * (1.0, -1.0)), _roof(x, upper)
     height = np.minimum(roof[:, None], roof) - np.maximum(floor[:, None], floor)
-    area = (x - x[:, None]) * height
+    area = (x - x[:, None]) * np.maximum(height, 0.0)
     i, j = np.unravel_index(int(area.argmax()), area.shape)
     y0, y1 = max(floor[i], floor[j]), min(roof[i], roof[j])
     return float(x[i]), float(x[j]), float(y0), float(y1)

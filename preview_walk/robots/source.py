@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import mujoco
 
+from preview_walk.errors import RobotError
 from preview_walk.robots.description import Description, model_path
 from preview_walk.robots.mjcf import compile_spec, read_mjcf
 from preview_walk.robots.shapes import add_shapes
@@ -36,10 +37,13 @@ def read_source(model: Description | mujoco.MjModel) -> Source:
     if isinstance(model, mujoco.MjModel):
         return Source(Tree(model), None, ())
     path = model_path(model.model)
-    if path.suffix.lower() != ".urdf":
-        return Source(Tree(read_mjcf(path)), None, ())
+    if not path.is_file():
+        raise RobotError(f"the model file '{path}' does not exist")
+    if path.suffix.lower() != ".urdf" and "<robot" not in path.read_text(errors="replace"):
+        mj, notes = read_mjcf(path)
+        return Source(Tree(mj), None, notes)
     urdf = read_urdf(path)
-    mj = compile_spec(urdf.spec, f"'{path}'")
+    mj, _ = compile_spec(urdf.spec, f"'{path}'")
     notes = tuple(f"{flaw}: {', '.join(links)}" for flaw, links in urdf.flaws.items())
     return Source(Tree(mj), urdf, notes)
 
@@ -52,12 +56,12 @@ def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
     """
     if source.urdf is None:
         return source.tree, []
-    tree = source.tree
+    tree, lost = source.tree, []
     links = {tree.name(part) for part in tree.rigid_part(body)}
     for kind in ("collision", "visual"):
         spec = source.urdf.spec.copy()
         missing = add_shapes(source.urdf, spec, kind, links)
-        shaped = Tree(compile_spec(spec, f"'{source.urdf.path}'"))
+        shaped = Tree(compile_spec(spec, f"'{source.urdf.path}'")[0])
         if shaped.mj.ngeom:
             notes = (
                 []
@@ -68,6 +72,10 @@ def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
                 ]
             )
             return shaped, notes
-        for address in missing:
-            source.urdf.flaws["mesh not found or not readable"].append(address)
+        lost += missing
+    if lost:
+        raise RobotError(
+            f"the foot '{tree.name(body)}' needs the mesh '{lost[0]}', which is not found or not "
+            "readable; expected the file, or a description that gives the sole's size and centre"
+        )
     return tree, []

@@ -121,6 +121,11 @@ def _find_pair(tree: Tree) -> tuple[int, int]:
                 )
                 if min(ahead) > 0.5 * lowest:  # no third limb reaches much further
                     reach[pair, number] = float(min(ahead))
+    if not reach and tree.tips and tree.common(tree.tips) == 0:
+        raise RobotError(
+            "the limbs hang on the world: the robot has no base body (MuJoCo fuses a URDF's root "
+            "link into the world); expected a base with a mass, or the .urdf file itself"
+        )
     if not reach:
         limbs = ", ".join(
             f"'{tree.name(tip)}' ({len(tree.joints_on(tree.path(tip)))} joints)"

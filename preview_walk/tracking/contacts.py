@@ -8,6 +8,7 @@ Nakamura, ICRA 2015, eqs. 8-15), which saves the QP from moving entries.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from preview_walk.types import Array
 
 COP_MARGIN = 0.1
 """Share of the sole's half size, at each edge, that the centre of pressure keeps clear of."""
+
+CONE_ROWS = 16
+"""Rows of a wrench cone."""
 
 
 def wrench_cone(half_length: float, half_width: float, friction: float) -> Array:
@@ -45,3 +49,19 @@ def sole_cone(sole: RobotSole, friction: float) -> Array:
     """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN`."""
     keep = 1.0 - COP_MARGIN
     return wrench_cone(keep * sole.half_length, keep * sole.half_width, friction)
+
+
+def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Array, Array]:
+    """Return C (17 k, 6 k), low and high (17 k,): low <= C @ wrenches <= high for k soles.
+
+    Per sole the `CONE_ROWS` rows of its cone and a last one for the normal force, whose upper
+    bound is infinite at first.
+    """
+    count = CONE_ROWS + 1
+    rows = np.zeros((count * len(soles), 6 * len(soles)))
+    low, high = np.full(len(rows), -np.inf), np.zeros(len(rows))
+    for k, sole in enumerate(soles):
+        rows[count * k : count * k + CONE_ROWS, 6 * k : 6 * k + 6] = sole_cone(sole, friction)
+        last = count * k + CONE_ROWS
+        rows[last, 6 * k + 2], low[last], high[last] = 1.0, 0.0, np.inf
+    return rows, low, high

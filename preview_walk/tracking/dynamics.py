@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 
+from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
 from preview_walk.types import FEET, Array, Foot
 
 _LOCAL = pin.ReferenceFrame.LOCAL
+_WORLD = pin.Convention.WORLD
 
 
 class FrameTerms:
-    """A frame of the robot at the current state.
+    """A frame of the robot at the current state; valid until the next `Dynamics.update`.
 
     - `rotation` (3, 3), `position` (3,): placement in the world.
     - `velocity` (6,): [linear; angular] in m/s and rad/s, in the frame's own axes.
@@ -21,31 +23,44 @@ class FrameTerms:
       that the acceleration is jacobian @ a + drift.
     """
 
-    def __init__(self, frame: int, nv: int) -> None:
+    def __init__(self, model: pin.Model, data: pin.Data, frame: int) -> None:
         self.frame = frame
-        self.rotation: Array = np.eye(3)
-        self.position: Array = np.zeros(3)
+        # Views of Pinocchio's own memory: they follow every update of the placement.
+        self.rotation: Array = data.oMf[frame].rotation
+        self.position: Array = data.oMf[frame].translation
         self.velocity: Array = np.zeros(6)
-        self.jacobian: Array = np.zeros((6, nv))
+        self.jacobian: Array = np.zeros((6, model.nv))
         self.drift: Array = np.zeros(6)
+
+    def update(self, model: pin.Model, data: pin.Data) -> None:
+        """Read the frame's terms after Pinocchio has computed those of the joints."""
+        frame = self.frame
+        pin.updateFramePlacement(model, data, frame)
+        self.jacobian = pin.getFrameJacobian(model, data, frame, _LOCAL)
+        self.velocity = pin.getFrameVelocity(model, data, frame, _LOCAL).vector
+        self.drift = pin.getFrameClassicalAcceleration(model, data, frame, _LOCAL).vector
 
 
 class Dynamics:
     """Terms of `mass @ a + bias = [0; tau] + sum of jacobian.T @ wrench` at one state.
 
-    Pinocchio's conventions: base velocity in base axes. Call `update(q, v)` once a tick.
+    Pinocchio's conventions: base velocity in base axes. Call `update(q, v)` once a tick; what the
+    attributes hold is valid until the next call.
 
-    - `mass` (nv, nv): upper triangle of the joint-space inertia (armature included); the lower
-      triangle is undefined.
+    - `mass` (nv, nv): joint-space inertia, armature included: its upper triangle and its first six
+      rows; the rest of the lower triangle is undefined.
     - `bias` (nv,): Coriolis, centrifugal and gravity terms, and viscous joint friction.
-    - `com`, `com_velocity` (3,) in the world; `com_jacobian` (3, nv); `com_drift` (3,).
-    - `feet`: `FrameTerms` of the soles; `torso`: of the trunk.
+    - `com`, `com_velocity` (3,) in the world; `com_jacobian` (3, nv) and `com_drift` (3,): the
+      CoM's acceleration is com_jacobian @ a + com_drift.
+    - `momentum_jacobian` (3, nv) and `momentum_drift` (3,): of the angular momentum about the CoM,
+      in world axes; call `update_momentum` first.
+    - `feet`: `FrameTerms` of the soles; `torso`: of the trunk; `frame(name)`: of any other.
     """
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
         self.model = robot.pin
-        self.data = robot.pin.createData()
+        self.data = data = robot.pin.createData()
         nv = robot.pin.nv
         self.nv = nv
         self.q: Array = np.array(robot.posture)
@@ -53,50 +68,75 @@ class Dynamics:
         self._still = np.zeros(nv)
         self._damping = np.concatenate([np.zeros(6), robot.damping])
         self._gravity = np.array(robot.pin.gravity.linear)
-        self.mass: Array = self.data.M
+        self._over_mass = 1.0 / robot.mass
+        self.mass: Array = data.M
         self.bias: Array = np.zeros(nv)
-        self.com: Array = np.zeros(3)
+        self.com: Array = data.com[0]
         self.com_velocity: Array = np.zeros(3)
         self.com_jacobian: Array = np.zeros((3, nv))
         self.com_drift: Array = np.zeros(3)
-        self.base_rotation: Array = np.eye(3)
+        self.momentum_jacobian: Array = np.zeros((3, nv))
+        self.momentum_drift: Array = np.zeros(3)
+        self._nle: Array = data.nle
+        self._base_rotation: Array = data.oMi[1].rotation
+        self._base_position: Array = data.oMi[1].translation
+        self._spatial_momentum: Array = data.Ag
+        self._frames: dict[int, FrameTerms] = {}
         self.feet: dict[Foot, FrameTerms] = {
-            foot: FrameTerms(robot.soles[foot].frame, nv) for foot in FEET
+            foot: self._add(robot.soles[foot].frame) for foot in FEET
         }
-        self.torso = FrameTerms(robot.torso, nv)
-        self._frames = (*self.feet.values(), self.torso)
+        self.torso = self._add(robot.torso)
+        self.update(self.q, self.v)
+
+    def frame(self, name: str) -> FrameTerms:
+        """Return the terms of a frame of the Pinocchio model, kept up to date from now on.
+
+        Raises `InvalidInput` for a name that the model lacks.
+        """
+        if not self.model.existFrame(name):
+            raise InvalidInput(
+                f"expected the name of a frame of {self.robot.name}, got '{name}'; it has "
+                f"{', '.join(frame.name for frame in self.model.frames)}"
+            )
+        terms = self._add(self.model.getFrameId(name))
+        terms.update(self.model, self.data)
+        return terms
+
+    def _add(self, frame: int) -> FrameTerms:
+        if frame not in self._frames:
+            self._frames[frame] = FrameTerms(self.model, self.data, frame)
+        return self._frames[frame]
 
     def update(self, q: Array, v: Array) -> None:
         """Compute every term at configuration q (nq,) and velocity v (nv,)."""
         model, data = self.model, self.data
         self.q, self.v = q, v
-        pin.crba(model, data, q)
+        # In Pinocchio's world convention these three calls leave behind all that the tasks need:
+        # the mass matrix, the spatial momentum's matrix, the CoM and the joints' Jacobians (crba),
+        # the bias forces, and the joints' velocities and drifts.
+        pin.crba(model, data, q, _WORLD)
         pin.nonLinearEffects(model, data, q, v)
         pin.forwardKinematics(model, data, q, v, self._still)
-        pin.computeJointJacobians(model, data)
+        for terms in self._frames.values():
+            terms.update(model, data)
         np.multiply(self._damping, v, out=self.bias)
-        self.bias += data.nle
-        for terms in self._frames:
-            placement = pin.updateFramePlacement(model, data, terms.frame)
-            terms.rotation, terms.position = placement.rotation, placement.translation
-            terms.jacobian = pin.getFrameJacobian(model, data, terms.frame, _LOCAL)
-            terms.velocity = terms.jacobian @ v
-            terms.drift = pin.getFrameClassicalAcceleration(
-                model, data, terms.frame, _LOCAL
-            ).vector
-        # The base's linear rows are the robot's linear momentum in base axes (m J_com).
-        rotation = data.oMi[1].rotation
-        self.base_rotation = rotation
-        over_mass = rotation / self.robot.mass
-        base_rows = self.mass[:3]
-        np.matmul(over_mass, base_rows, out=self.com_jacobian)
-        self.com_jacobian[:, :3] = over_mass @ self._symmetric_corner(base_rows)
-        self.com_drift = over_mass @ data.nle[:3] + self._gravity
-        self.com = pin.centerOfMass(model, data, q, False)
+        self.bias += self._nle
+        # The spatial momentum's linear rows are m J_com; the base's linear rows of the dynamics
+        # are Newton's law for the whole robot, in base axes.
+        np.multiply(self._spatial_momentum[:3], self._over_mass, out=self.com_jacobian)
+        np.matmul(self._base_rotation, self._nle[:3], out=self.com_drift)
+        self.com_drift *= self._over_mass
+        self.com_drift += self._gravity
         self.com_velocity = self.com_jacobian @ v
 
-    @staticmethod
-    def _symmetric_corner(rows: Array) -> Array:
-        """Return the 3 x 3 corner with its lower triangle filled in."""
-        corner = rows[:, :3]
-        return np.triu(corner) + np.triu(corner, 1).T
+    def update_momentum(self) -> None:
+        """Compute `momentum_jacobian` and `momentum_drift`; only a momentum task needs them.
+
+        Both are moved to the CoM: from the world's origin the Jacobian, from the base's origin the
+        moments, that of gravity about the CoM being zero.
+        """
+        momentum = self._spatial_momentum
+        np.subtract(momentum[3:], pin.skew(self.com) @ momentum[:3], out=self.momentum_jacobian)
+        rotation, lever = self._base_rotation, self.com - self._base_position
+        force, moment = rotation @ self._nle[:3], rotation @ self._nle[3:6]
+        np.subtract(moment, np.cross(lever, force), out=self.momentum_drift)

@@ -1,19 +1,21 @@
-"""The QP of one tick: fixed sparsity for a set of contacts, values written in place.
+"""The QP of one tick: what the tasks want, what contacts and joints allow.
 
-Variables z = [a; f; y]: generalised accelerations a (nv), the wrench f of every contact (6 each,
-`WRENCH_UNIT`), and one slack per task row. Rows, as lower <= A z <= upper:
+Unknown are the generalised accelerations a (nv) and the wrenches f (6 per contact, in the sole's
+axes at its centre). With M a + h the inverse dynamics and J the contacts' Jacobian,
 
-| rows | meaning |
-|---|---|
-| 6 | base rows of `mass a + bias = jacobian^T f` (over `TORQUE_UNIT`) |
-| 6 per contact | the sole's acceleration is zero (its velocity is damped) |
-| task rows | sqrt(weight) (jacobian a - target) = y |
-| n | joint torques within limits (over `TORQUE_UNIT`) |
-| 17 per contact | wrench cone, and the normal force between 0 and its limit |
-| n | joint accelerations that keep positions and speeds within limits |
+    minimise  sum of task weight |jacobian a - target|^2          tasks
+              + CONTACT_WEIGHT |J a + drift + BRAKE velocity|^2   soles stay where they are
+              + posture weight |a - posture acceleration|^2       what is left free
+              + wrench weight |f|^2                               shares the load between the feet
+              + LIMIT_WEIGHT |e|^2                                e: beyond the joints' limits
+    subject to  first six rows of  M a + h = J^T f                Newton and Euler
+                |other rows of  M a + h - J^T f| <= effort        joint torques
+                low <= a_joints - e <= high                       joint positions and speeds
+                C f <= 0,  0 <= f_normal <= limit                 contacts
 
-Cost: |y|^2 / 2 + posture weight |a_joints - posture target|^2 / 2 + wrench weight |f|^2 / 2. The
-slack keeps the cost's matrix constant and diagonal, so a tick changes entries of A only.
+(all terms halved). It has a solution for every state: f = 0 with any torques in their limits obeys
+all constraints. Contacts and joint limits yield, by next to nothing, instead of ever contradicting
+the hard ones.
 """
 
 from __future__ import annotations
@@ -21,20 +23,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import pinocchio as pin
-import scipy.sparse as sparse
+import qpsolvers
+from scipy.linalg.blas import dsymv
 
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.contacts import sole_cone
+from preview_walk.tracking.contacts import contact_rows
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
 
-WRENCH_UNIT = np.array([100.0, 100.0, 100.0, 10.0, 10.0, 10.0])
-"""Unit of the contact variables: 100 N and 10 N·m, so that a sole's wrench is of order one."""
+CONTACT_WEIGHT = 1e5
+"""Weight of a contact's acceleration: a sole's error stays below 1e-3 m/s^2 (tasks weigh ~10)."""
 
-TORQUE_UNIT = 100.0
-"""Unit of the dynamics rows in N and N·m."""
+LIMIT_WEIGHT = 1e4
+"""Weight of the acceleration (rad/s^2) by which a joint misses what its limits ask."""
 
 BASE_WEIGHT = 1e-4
 """Weight of the base's accelerations, so that the cost is strictly convex in every direction."""
@@ -42,16 +44,23 @@ BASE_WEIGHT = 1e-4
 BRAKE = 100.0
 """A contact's remaining velocity decays at this rate (1/s)."""
 
-LIMIT_HORIZON = 0.05
-"""Time (s) within which a joint may come to its position limit."""
+LIMIT_RATE = 30.0
+"""Joints approach their limits no faster than exponentially at this rate (1/s)."""
+
+WRENCH_UNIT = np.array([100.0, 100.0, 100.0, 10.0, 10.0, 10.0])
+"""Unit of the wrenches in `build`, so that its variables are of order one."""
 
 
 class TickProblem:
-    """The QP of one tick for a fixed set of contacts and tasks.
+    """The QP of one tick for a set of contacts and tasks; `fill` writes the current state.
 
-    `fill` writes the current state; `P`, `A` (CSC), `q`, `lower`, `upper` are then the QP
-
-        minimise 1/2 z^T P z + q^T z  subject to  lower <= A z <= upper.
+    - `rows` (m, nv), `target` (m,), `slack` (m,): rows @ a = target, each at the inverse weight
+      `slack`, in the order tasks, contacts, base; slack 0 is an equality. The base's rows
+      (last six) have `wrench_map` (6, nf) @ f on their right-hand side.
+    - `prior` (nv,), `prior_weight` (nv,): the accelerations drawn to, the posture's.
+    - `wrench_weight` (nf,) per N^2 or (N·m)^2.
+    - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
+    - `low`, `high` (2 n,): limits of the joints' torques and of their accelerations.
     """
 
     def __init__(
@@ -67,165 +76,129 @@ class TickProblem:
         self.contacts = tuple(contacts)
         self.tasks = tuple(tasks)
         self.posture = posture
-        nv, n = robot.pin.nv, robot.pin.nv - 6
-        self.nv, self.nf = nv, 6 * len(self.contacts)
-        rows = [task.rows for task in tasks]
-        self.ny = sum(rows)
-        self.n = nv + self.nf + self.ny
-        self._normal = nv + 2 + 6 * np.arange(len(self.contacts))
+        nv = robot.pin.nv
+        self.nv, self.n, self.nf = nv, nv - 6, 6 * len(self.contacts)
+        ny = sum(task.rows for task in tasks)
+        self.m = ny + self.nf + 6
 
-        # Rows, in the order of the table above.
-        spans = {}
+        self.rows: Array = np.zeros((self.m, nv))
+        self.target: Array = np.zeros(self.m)
+        self.slack: Array = np.zeros(self.m)
+        self.slack[ny : ny + self.nf] = 1.0 / CONTACT_WEIGHT
+        self._task_rows = []
         at = 0
-        for name, size in (
-            ("base", 6),
-            ("contact", self.nf),
-            ("task", self.ny),
-            ("torque", n),
-            ("cone", 16 * len(self.contacts)),
-            ("normal", len(self.contacts)),
-            ("limit", n),
-        ):
-            spans[name] = slice(at, at + size)
-            at += size
-        self.spans = spans
-        self.m = at
+        for task in tasks:
+            span = slice(at, at + task.rows)
+            self._task_rows.append((task, self.rows[span], self.target[span], self.slack[span]))
+            at += task.rows
+        self.contact_jacobian = self.rows[ny : ny + self.nf]
+        self._contact_target = self.target[ny : ny + self.nf]
+        self._base_rows, self._base_target = self.rows[-6:], self.target[-6:]
+        self.wrench_map = self.contact_jacobian[:, :6].T
 
-        # Where every moving entry of A comes from: `source` holds, one after the other, the mass
-        # matrix, the contact Jacobians, the task Jacobians and a one for constant entries.
-        mass_size = nv * nv
-        self._contact_at = mass_size
-        self._task_at = self._contact_at + 6 * nv * len(self.contacts)
-        one = self._task_at + self.ny * nv
-        self._source = np.zeros(one + 1)
-        self._source[one] = 1.0
-        self._mass = self._source[:mass_size]
-        self._jacobians = [
-            self._source[self._contact_at + 6 * nv * k :][: 6 * nv].reshape(6, nv)
-            for k in range(len(self.contacts))
-        ]
-        starts = np.concatenate([[0], np.cumsum(rows)]).astype(int)
-        self._task_jacobians = [
-            self._source[self._task_at + s * nv : self._task_at + (s + r) * nv].reshape(r, nv)
-            for s, r in zip(starts, rows, strict=False)
-        ]
-        self._task_target = np.zeros(self.ny)
-        self._task_targets = [
-            self._task_target[s : s + r] for s, r in zip(starts, rows, strict=False)
-        ]
-        self._task_scale = np.repeat([task.weight**0.5 for task in tasks], rows)
-
-        entries: list[tuple[int, int, int, float]] = []  # row, column, source, scale
-        related = _related_dofs(robot.pin)
-        for i in range(nv):
-            row = spans["base"].start + i if i < 6 else spans["torque"].start + i - 6
-            for j in range(nv):
-                if related[i, j]:  # the upper triangle, column-major
-                    entries.append((row, j, max(i, j) * nv + min(i, j), 1.0 / TORQUE_UNIT))
-            for k, foot in enumerate(self.contacts):
-                if related[i, _tip_dof(robot, foot)]:
-                    for r in range(6):
-                        source = self._contact_at + (6 * k + r) * nv + i
-                        scale = -WRENCH_UNIT[r] / TORQUE_UNIT
-                        entries.append((row, nv + 6 * k + r, source, scale))
-        for k, foot in enumerate(self.contacts):
-            for r in range(6):
-                for j in np.flatnonzero(related[:, _tip_dof(robot, foot)]):
-                    source = self._contact_at + (6 * k + r) * nv + int(j)
-                    entries.append((spans["contact"].start + 6 * k + r, int(j), source, 1.0))
-        for r in range(self.ny):
-            row = spans["task"].start + r
-            for j in range(nv):
-                entries.append((row, j, self._task_at + r * nv + j, float(self._task_scale[r])))
-            entries.append((row, nv + self.nf + r, one, -1.0))
-        for k, foot in enumerate(self.contacts):
-            cone = sole_cone(robot.soles[foot], friction) * WRENCH_UNIT / WRENCH_UNIT[0]
-            for r, c in zip(*np.nonzero(cone), strict=True):
-                row = spans["cone"].start + 16 * k + int(r)
-                entries.append((row, nv + 6 * k + int(c), one, float(cone[r, c])))
-            entries.append((spans["normal"].start + k, nv + 6 * k + 2, one, 1.0))
-        for j in range(n):
-            entries.append((spans["limit"].start + j, 6 + j, one, 1.0))
-
-        order = sorted(range(len(entries)), key=lambda e: (entries[e][1], entries[e][0]))
-        row_of = np.array([entries[e][0] for e in order], dtype=np.int32)
-        column_of = np.array([entries[e][1] for e in order])
-        self._gather = np.array([entries[e][2] for e in order])
-        self._scale = np.array([entries[e][3] for e in order])
-        starts_of = np.searchsorted(column_of, np.arange(self.n + 1)).astype(np.int32)
-        self.A = sparse.csc_matrix(
-            (np.zeros(len(order)), row_of, starts_of), shape=(self.m, self.n)
+        self.prior: Array = np.zeros(nv)
+        self.prior_weight = np.concatenate([np.full(6, BASE_WEIGHT), posture.weight])
+        self.unit = np.tile(WRENCH_UNIT, len(self.contacts))
+        self.wrench_weight = wrench_weight / self.unit**2
+        self.contact_rows, self.contact_low, self.contact_high = contact_rows(
+            [robot.soles[foot] for foot in self.contacts], friction
         )
-        diagonal = np.concatenate(
-            [
-                np.full(6, BASE_WEIGHT),
-                posture.weight,
-                np.full(self.nf, wrench_weight),
-                np.ones(self.ny),
-            ]
-        )
-        self.P = sparse.diags(diagonal, format="csc")
-        self.q: Array = np.zeros(self.n)
-        self.lower: Array = np.full(self.m, -np.inf)
-        self.upper: Array = np.full(self.m, np.inf)
-        self.upper[spans["cone"]] = 0.0
-        self.lower[spans["normal"]] = 0.0
-        self._effort = robot.effort / TORQUE_UNIT
+        self._normal_high = self.contact_high[16::17]
+        self.low: Array = np.concatenate([-robot.effort, np.zeros(self.n)])
+        self.high: Array = np.concatenate([robot.effort, np.zeros(self.n)])
+        self._limits = np.stack([robot.q_lower, robot.q_upper])
+        self._speeds = np.stack([-robot.v_limit, robot.v_limit])
+        self._wanted = np.zeros((2, self.n))
+        self._allowed = np.zeros((2, self.n))
+        self.mass: Array = np.zeros((nv, nv))
+        self.bias: Array = np.zeros(nv)
 
     def fill(self, dynamics: Dynamics, normal_limit: Mapping[Foot, float]) -> None:
-        """Write the QP of the current state; `normal_limit` (N) caps each contact's normal force."""
-        spans, lower, upper = self.spans, self.lower, self.upper
-        self._mass[:] = dynamics.mass.ravel(order="F")
-        bias = dynamics.bias / TORQUE_UNIT
-        lower[spans["base"]] = upper[spans["base"]] = -bias[:6]
-        for k, foot in enumerate(self.contacts):
-            terms = dynamics.feet[foot]
-            self._jacobians[k][:] = terms.jacobian
-            at = spans["contact"].start + 6 * k
-            lower[at : at + 6] = upper[at : at + 6] = -terms.drift - BRAKE * terms.velocity
-            upper[spans["normal"].start + k] = normal_limit[foot] / WRENCH_UNIT[2]
-        for task, jacobian, target in zip(
-            self.tasks, self._task_jacobians, self._task_targets, strict=True
-        ):
+        """Write the QP of the current state; `normal_limit` (N): largest normal forces."""
+        self.mass, self.bias = dynamics.mass, dynamics.bias
+        for task, jacobian, target, slack in self._task_rows:
             task.update(dynamics, jacobian, target)
-        lower[spans["task"]] = upper[spans["task"]] = self._task_scale * self._task_target
-        np.subtract(-self._effort, bias[6:], out=lower[spans["torque"]])
-        np.subtract(self._effort, bias[6:], out=upper[spans["torque"]])
-        self.q[6 : self.nv] = -self.posture.weight * self.posture.target(dynamics)
-        self._limit(dynamics, lower[spans["limit"]], upper[spans["limit"]])
-        np.take(self._source, self._gather, out=self.A.data)
-        self.A.data *= self._scale
+            slack[:] = 1.0 / task.weight
+        for k, foot in enumerate(self.contacts):
+            terms, span = dynamics.feet[foot], slice(6 * k, 6 * k + 6)
+            self.contact_jacobian[span] = terms.jacobian
+            wanted = self._contact_target[span]
+            np.multiply(terms.velocity, -BRAKE, out=wanted)
+            wanted -= terms.drift
+            self._normal_high[k] = normal_limit[foot]
+        self._base_rows[:] = dynamics.mass[:6]
+        np.negative(dynamics.bias[:6], out=self._base_target)
+        self.posture.target(dynamics, self.prior[6:])
+        self._fill_limits(dynamics.q[7:], dynamics.v[6:])
 
-    def _limit(self, dynamics: Dynamics, lower: Array, upper: Array) -> None:
-        """Write the joint accelerations that keep positions and speeds within their limits."""
-        robot, h = self.robot, LIMIT_HORIZON
-        q, v = dynamics.q[7:], dynamics.v[6:]
-        slowest, fastest = (-robot.v_limit - v) / h, (robot.v_limit - v) / h
-        moved = q + h * v
-        # A speed limit outranks a position limit, so that lower <= upper always holds.
-        np.clip(2 / h**2 * (robot.q_lower - moved), slowest, fastest, out=lower)
-        np.clip(2 / h**2 * (robot.q_upper - moved), slowest, fastest, out=upper)
+    def _fill_limits(self, q: Array, v: Array) -> None:
+        """Write the joint accelerations that keep positions and speeds within their limits.
 
-    def torques(self, z: Array, dynamics: Dynamics) -> Array:
-        """Return the joint torques (n,) in N·m of a solution z: the actuated rows of dynamics."""
-        torque = self.A[self.spans["torque"]] @ z * TORQUE_UNIT
-        result: Array = torque + dynamics.bias[6:]
-        return result
+        The distance d to a limit obeys d'' >= -2 LIMIT_RATE d' - LIMIT_RATE^2 d, critically
+        damped; a speed limit outranks a position limit, so that low <= high always holds.
+        """
+        wanted, allowed = self._wanted, self._allowed
+        np.subtract(self._limits, q, out=wanted)
+        wanted *= LIMIT_RATE
+        wanted -= v
+        wanted -= v
+        np.subtract(self._speeds, v, out=allowed)
+        np.maximum(wanted, allowed[0], out=wanted)
+        np.minimum(wanted, allowed[1], out=wanted)
+        np.multiply(wanted[0], LIMIT_RATE, out=self.low[self.n :])
+        np.multiply(wanted[1], LIMIT_RATE, out=self.high[self.n :])
 
+    def forces(self, acceleration: Array, wrench: Array) -> Array:
+        """Return M a + h - J^T f (nv,): what is left for the base, zero, and the joint torques."""
+        forces: Array = dsymv(1.0, self.mass, acceleration)
+        forces += self.bias
+        forces -= wrench @ self.contact_jacobian
+        return forces
 
-def _related_dofs(model: pin.Model) -> np.ndarray:
-    """Return where the mass matrix (nv, nv) can be non-zero: one joint supports the other."""
-    owner = np.zeros(model.nv, dtype=int)
-    for joint in range(1, model.njoints):
-        owner[model.joints[joint].idx_v :][: model.joints[joint].nv] = joint
-    above = np.zeros((model.njoints, model.njoints), dtype=bool)
-    for joint in range(1, model.njoints):
-        above[list(model.supports[joint]), joint] = True
-    either = above | above.T
-    return np.asarray(either[np.ix_(owner, owner)])
+    def build(self) -> qpsolvers.Problem:
+        """Return the QP of the current state, dense, to look at, save or solve with any backend.
 
+        Its variables are [a; f; e], f in `WRENCH_UNIT` (see `split`). Constraints on forces are
+        divided by 100, so that all rows are of order one.
+        """
+        nv, nf, n, unit = self.nv, self.nf, self.n, 100.0
+        size = nv + nf + n
+        free = slice(0, self.m - 6)
+        weighted = self.rows[free].T / self.slack[free]
+        P = np.diag(
+            np.concatenate(
+                [self.prior_weight, self.wrench_weight * self.unit**2, np.full(n, LIMIT_WEIGHT)]
+            )
+        )
+        P[:nv, :nv] += weighted @ self.rows[free]
+        q = np.zeros(size)
+        q[:nv] = -self.prior_weight * self.prior - weighted @ self.target[free]
 
-def _tip_dof(robot: Robot, foot: Foot) -> int:
-    """Return the last degree of freedom of the leg that carries a sole."""
-    joint = robot.pin.joints[robot.pin.frames[robot.soles[foot].frame].parentJoint]
-    return int(joint.idx_v + joint.nv - 1)
+        mass = np.triu(self.mass)
+        dynamics = np.zeros((nv, size))
+        dynamics[:, :nv] = mass + np.triu(mass, 1).T
+        dynamics[:, nv : nv + nf] = -self.contact_jacobian.T * self.unit
+        limits = np.zeros((2 * n, size))
+        limits[:n] = dynamics[6:] / unit
+        limits[n:, 6:nv] = np.eye(n)
+        limits[n:, nv + nf :] = -np.eye(n)
+        scale = np.repeat([1.0 / unit, 1.0], n)
+        offset = np.concatenate([self.bias[6:], np.zeros(n)])
+        low, high = (self.low - offset) * scale, (self.high - offset) * scale
+        cone = np.zeros((len(self.contact_rows), size))
+        cone[:, nv : nv + nf] = self.contact_rows * self.unit / unit
+        normal = np.arange(len(cone)) % 17 == 16
+        G = np.vstack([limits, -limits, cone[~normal]])
+        h = np.concatenate([high, -low, self.contact_high[~normal]])
+        lb, ub = np.full(size, -np.inf), np.full(size, np.inf)
+        pushes = nv + 2 + 6 * np.arange(len(self.contacts))
+        lb[pushes], ub[pushes] = 0.0, self._normal_high / unit
+        bounded = np.isfinite(h)
+        return qpsolvers.Problem(
+            P, q, G[bounded], h[bounded], dynamics[:6] / unit, -self.bias[:6] / unit, lb, ub
+        )
+
+    def split(self, z: Array) -> tuple[Array, Array]:
+        """Return the accelerations (nv,) and wrenches (nf,), SI units, of a solution of `build`."""
+        nv, nf = self.nv, self.nf
+        return z[:nv], z[nv : nv + nf] * self.unit

@@ -22,7 +22,7 @@ class Task(Protocol):
     rows: int
     """Number of equations."""
     weight: float
-    """Importance relative to the other tasks, in 1 / (unit of the acceleration)^2."""
+    """Importance relative to the other tasks, in 1 / (unit of the acceleration)^2; positive."""
 
     def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
         """Write the task at the current state into `jacobian` (rows, nv) and `target` (rows,)."""
@@ -63,23 +63,20 @@ class FootTask:
     def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
         """See `Task.update`."""
         terms = dynamics.feet[self.foot]
-        rotation = terms.rotation
+        rotation, pose = terms.rotation, self.pose
         jacobian[:] = terms.jacobian
-        # In the sole's axes: pull towards the reference, plus its own motion.
-        target[:3] = (
-            self.stiffness * (self.pose[:3, 3] - terms.position)
-            + self.damping * self.velocity[:3]
-            + self.acceleration[:3]
-        ) @ rotation
-        target[3:] = (
-            self.damping * self.velocity[3:] + self.acceleration[3:]
-        ) @ rotation + self.stiffness * pin.log3(rotation.T @ self.pose[:3, :3])
+        # The reference's own motion and the pull towards it, turned into the sole's axes.
+        wanted = self.damping * self.velocity
+        wanted += self.acceleration
+        wanted[:3] += self.stiffness * (pose[:3, 3] - terms.position)
+        np.matmul(wanted.reshape(2, 3), rotation, out=target.reshape(2, 3))
+        target[3:] += self.stiffness * pin.log3(rotation.T @ pose[:3, :3])
         target -= self.damping * terms.velocity
         target -= terms.drift
 
 
 class TorsoTask:
-    """The trunk keeps the orientation `rotation` (3, 3), turning at `velocity` (3,) in the world."""
+    """The trunk keeps the orientation `rotation` (3, 3), turning at `velocity` (3,), world axes."""
 
     rows = 3
 
@@ -94,15 +91,18 @@ class TorsoTask:
         terms = dynamics.torso
         rotation = terms.rotation
         jacobian[:] = terms.jacobian[3:]
-        target[:] = (
-            self.stiffness * pin.log3(rotation.T @ self.rotation)
-            + self.damping * (self.velocity @ rotation - terms.velocity[3:])
-            - terms.drift[3:]
-        )
+        np.matmul(self.velocity, rotation, out=target)
+        target -= terms.velocity[3:]
+        target *= self.damping
+        target += self.stiffness * pin.log3(rotation.T @ self.rotation)
+        target -= terms.drift[3:]
 
 
 class AngularMomentumTask:
-    """The angular momentum about the CoM decays at `rate` (1/s) towards `momentum` (3,)."""
+    """The angular momentum about the CoM, world axes, is drawn to `momentum` (3,) at `rate` (1/s).
+
+    Its weight is in 1 / (N·m)^2.
+    """
 
     rows = 3
 
@@ -113,16 +113,10 @@ class AngularMomentumTask:
 
     def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
         """See `Task.update`."""
-        rotation = dynamics.base_rotation
-        lever = dynamics.com - dynamics.data.oMi[1].translation
-        mass = dynamics.mass[:6].copy()
-        mass[:, :6] = np.triu(mass[:, :6]) + np.triu(mass[:, :6], 1).T
-        skew = pin.skew(lever)
-        jacobian[:] = rotation @ mass[3:] - skew @ (rotation @ mass[:3])
-        momentum = jacobian @ dynamics.v
-        force = rotation @ dynamics.data.nle[:3]
-        drift = rotation @ dynamics.data.nle[3:6] - np.cross(lever, force)
-        target[:] = self.rate * (self.momentum - momentum) - drift
+        dynamics.update_momentum()
+        jacobian[:] = dynamics.momentum_jacobian
+        target[:] = self.rate * (self.momentum - jacobian @ dynamics.v)
+        target -= dynamics.momentum_drift
 
 
 class PostureTask:
@@ -143,9 +137,8 @@ class PostureTask:
         self.stiffness[list(loose)] = 0.0
         self.damping = 2.0 * frequency
 
-    def target(self, dynamics: Dynamics) -> Array:
-        """Return the joint accelerations (n,) that lead to the posture, in rad/s^2."""
-        target: Array = (
-            self.stiffness * (self.posture - dynamics.q[7:]) - self.damping * dynamics.v[6:]
-        )
-        return target
+    def target(self, dynamics: Dynamics, target: Array) -> None:
+        """Write into `target` (n,) the accelerations that lead to the posture, in rad/s^2."""
+        np.subtract(self.posture, dynamics.q[7:], out=target)
+        target *= self.stiffness
+        target -= self.damping * dynamics.v[6:]

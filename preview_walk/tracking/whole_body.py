@@ -7,20 +7,33 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
+import qpsolvers
 
+from preview_walk.errors import InvalidInput
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
+from preview_walk.tracking.backends import DEFAULT, Backend, Solution, make_backend
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.osqp_workspace import OsqpWorkspace, Solution
 from preview_walk.tracking.problem import TickProblem
-from preview_walk.tracking.tasks import CoMTask, FootTask, PostureTask, Task, TorsoTask
-from preview_walk.types import FEET, Array, Foot, other
+from preview_walk.tracking.safety import Fallback, QPFailure, check_state
+from preview_walk.tracking.tasks import (
+    AngularMomentumTask,
+    CoMTask,
+    FootTask,
+    PostureTask,
+    Task,
+    TorsoTask,
+)
+from preview_walk.types import FEET, Array, Foot
+
+POSTURE_MARGIN = 0.02
+"""The posture drawn to keeps this distance (rad) from the joints' limits."""
 
 
 @dataclass
 class TickTimes:
-    """Seconds spent in the parts of one tick."""
+    """Seconds spent in the parts of one tick: terms of the dynamics, writing the QP, solving it."""
 
     terms: float = 0.0
     assembly: float = 0.0
@@ -30,73 +43,145 @@ class TickTimes:
 class WholeBodyController:
     """Tasks and contacts in, torques out.
 
-    `com`, `feet`, `torso`, `posture` are the tasks: set their references, then call `torques`.
-    A foot that is not in contact follows its foot task.
+    `com`, `feet`, `torso`, `posture` (and `momentum` when the gains give it a weight) are the
+    tasks: set their references, then call `update` and `torques`. A foot that is not in contact
+    follows its foot task. `add_task` adds one's own.
+
+    - `solution`: the last tick's accelerations and wrenches; `times`: what the tick cost.
+    - `status`: 0 solved, 1 the last solution stood in, 2 the damped posture did (see `safety`);
+      `failures` counts ticks not solved, `failure` is the evidence of the last of them.
+    - `backend`: the solver; any object with the `Backend` protocol's `solve`.
+
+    `solver` is "osqp" (kept warm from tick to tick) or the name of an installed backend of
+    qpsolvers. Raises `InvalidInput` for any other.
     """
 
     def __init__(
-        self, robot: Robot, gains: TrackingGains, friction: float, solver: str = "osqp"
+        self, robot: Robot, gains: TrackingGains, friction: float, solver: str = DEFAULT
     ) -> None:
         self.robot = robot
         self.gains = gains
         self.friction = friction
+        self.backend: Backend = make_backend(solver)
         self.dynamics = Dynamics(robot)
         self.com = CoMTask(gains.com_weight)
         self.feet = {foot: FootTask(foot, gains.foot_weight, gains.foot) for foot in FEET}
         self.torso = TorsoTask(gains.torso_weight, gains.torso)
-        legs = [
-            int(robot.pin.joints[joint].idx_v) - 6
-            for foot in FEET
-            for joint in leg_joints(robot.pin, robot.soles[foot].frame)
-        ]
-        weight = np.full(robot.pin.nv - 6, gains.posture_weight)
-        # The trunk is one body: its joints keep the pelvis with the torso, whose task is upright.
-        trunk = [int(j) for j in robot.pin.supports[robot.pin.frames[robot.torso].parentJoint]]
-        weight[[robot.pin.joints[j].idx_v - 6 for j in trunk if j > 1]] = gains.trunk_weight
-        self.posture = PostureTask(robot.posture[7:], weight, gains.posture, legs)
+        self.tasks: list[Task] = [self.com, self.torso]
+        self.momentum = AngularMomentumTask(gains.momentum_weight, gains.momentum)
+        if gains.momentum_weight > 0.0:
+            self.tasks.append(self.momentum)
+        self.posture = _posture_task(robot, gains)
         self.times = TickTimes()
         self.solution: Solution | None = None
-        self._solver = solver
-        self._workspaces: dict[tuple[Foot, ...], OsqpWorkspace] = {}
-        self._contacts: tuple[Foot, ...] = ()
+        self.failure: QPFailure | None = None
+        self._fallback = Fallback()
+        self._problems: dict[tuple[Foot, ...], TickProblem] = {}
 
-    def _workspace(self, contacts: tuple[Foot, ...]) -> OsqpWorkspace:
-        """Return the workspace of a set of contacts; made when first met."""
-        if contacts not in self._workspaces:
-            tasks: list[Task] = [self.com, self.torso]
-            tasks += [self.feet[foot] for foot in FEET if foot not in contacts]
-            problem = TickProblem(
-                self.robot,
-                contacts,
-                tasks,
-                self.posture,
-                self.gains.wrench_weight,
-                self.friction,
+    @property
+    def status(self) -> int:
+        """How the last tick was answered: 0 solved, 1 by the last solution, 2 damped posture."""
+        return self._fallback.status
+
+    @property
+    def failures(self) -> int:
+        """How many ticks were not solved."""
+        return self._fallback.count
+
+    def add_task(self, task: Task) -> None:
+        """Add a task of one's own, from the next tick on.
+
+        Raises `InvalidInput` unless it has at least one row and a positive weight.
+        """
+        if not (task.rows >= 1 and 0.0 < task.weight < np.inf):
+            raise InvalidInput(
+                f"a task must have rows >= 1 and a weight > 0, "
+                f"got rows = {task.rows} and weight = {task.weight}."
             )
-            self._workspaces[contacts] = OsqpWorkspace(problem)
-        return self._workspaces[contacts]
+        self.tasks.append(task)
+        self._problems.clear()
 
     def update(self, q: Array, v: Array) -> None:
-        """Compute the dynamics at the measured state (Pinocchio's q and v)."""
+        """Compute the dynamics at the measured state (Pinocchio's q and v).
+
+        Raises `StateError` when it is not finite.
+        """
         start = perf_counter()
+        check_state(q, v, self.robot.joint_names)
         self.dynamics.update(q, v)
         self.times.terms = perf_counter() - start
 
     def torques(self, normal_limit: Mapping[Foot, float]) -> Array:
-        """Return the joint torques (n,) in N·m.
+        """Return the joint torques (n,) in N·m, within the joints' limits.
 
         `normal_limit` names the feet in contact and the normal force (N) each may carry.
         """
         start = perf_counter()
-        contacts = tuple(foot for foot in FEET if foot in normal_limit)
-        workspace = self._workspace(contacts)
-        if contacts != self._contacts:
-            self._contacts = contacts
-            workspace.reset()
-        workspace.problem.fill(self.dynamics, normal_limit)
+        problem = self._problem(normal_limit)
         filled = perf_counter()
-        self.solution = workspace.solve()
-        solved = perf_counter()
-        self.times.assembly, self.times.solve = filled - start, solved - filled
-        torques = workspace.problem.torques(self.solution.z, self.dynamics)
-        return np.clip(torques, -self.robot.effort, self.robot.effort)
+        solution = self._solve(problem)
+        torques = problem.forces(solution.acceleration, solution.wrench)[6:]
+        np.minimum(torques, self.robot.effort, out=torques)
+        np.maximum(torques, -self.robot.effort, out=torques)
+        self.solution = solution
+        self.times.assembly, self.times.solve = filled - start, perf_counter() - filled
+        return torques
+
+    def build(self, normal_limit: Mapping[Foot, float]) -> qpsolvers.Problem:
+        """Return the QP that `torques` would solve now; see `TickProblem.build`."""
+        return self._problem(normal_limit).build()
+
+    def _problem(self, normal_limit: Mapping[Foot, float]) -> TickProblem:
+        """Return the problem of a set of contacts, made when first met, filled."""
+        contacts = tuple(foot for foot in FEET if foot in normal_limit)
+        problem = self._problems.get(contacts)
+        if problem is None:
+            swing = [self.feet[foot] for foot in FEET if foot not in contacts]
+            problem = TickProblem(
+                self.robot,
+                contacts,
+                [*self.tasks, *swing],
+                self.posture,
+                self.gains.wrench_weight,
+                self.friction,
+            )
+            self._problems[contacts] = problem
+        problem.fill(self.dynamics, normal_limit)
+        return problem
+
+    def _solve(self, problem: TickProblem) -> Solution:
+        """Return the backend's solution, or what stands in for it."""
+        solution, cause = None, None
+        try:
+            solution = self.backend.solve(problem)
+        except Exception as error:  # whatever a solver may raise, the robot needs torques now
+            cause = error
+        if solution is not None and solution.solved and _finite(solution):
+            self._fallback.solved(problem, solution)
+            return solution
+        self.failure = QPFailure(problem.build(), solution, cause)
+        return self._fallback.solution(problem, self.dynamics)
+
+
+def _finite(solution: Solution) -> bool:
+    total = solution.acceleration.sum() + solution.wrench.sum()
+    return bool(-np.inf < total < np.inf)
+
+
+def _posture_task(robot: Robot, gains: TrackingGains) -> PostureTask:
+    """Return the task that keeps the walking posture: legs damped, the trunk stiffer than arms."""
+    joints = robot.pin.joints
+    legs = [
+        int(joints[joint].idx_v) - 6
+        for foot in FEET
+        for joint in leg_joints(robot.pin, robot.soles[foot].frame)
+    ]
+    weight = np.full(robot.pin.nv - 6, gains.posture_weight)
+    # The trunk is one body: its joints keep the pelvis with the torso, whose task is upright.
+    trunk = robot.pin.supports[robot.pin.frames[robot.torso].parentJoint]
+    weight[[joints[int(j)].idx_v - 6 for j in trunk if int(j) > 1]] = gains.trunk_weight
+    middle = 0.5 * (robot.q_lower + robot.q_upper)
+    low = np.fmin(robot.q_lower + POSTURE_MARGIN, middle)  # fmin, fmax: middle may be nan
+    high = np.fmax(robot.q_upper - POSTURE_MARGIN, middle)
+    posture = np.clip(robot.posture[7:], low, high)
+    return PostureTask(posture, weight, gains.posture, legs)

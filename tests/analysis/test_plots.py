@@ -13,7 +13,7 @@ from matplotlib.image import imread
 from matplotlib.patches import Polygon
 from synthetic_walk import DT, FOOT_ERROR, walk_record
 
-from preview_walk.analysis import PLOTS, plot, plot_all
+from preview_walk.analysis import PLOTS, plot, plot_all, save_plot
 from preview_walk.analysis.phase_plots import contact, timing_errors
 from preview_walk.analysis.plots import top_view, torques
 from preview_walk.analysis.style import new_figure, spans
@@ -123,6 +123,9 @@ def test_bad_suffix_and_empty_record_get_one_sentence(record: Record, tmp_path: 
         InvalidInput, match=r"a plot's file name must end in one of .*eps, .*png, .*, got"
     ):
         plot(record, tmp_path / "walk.xyz")
+    sentence = f"a plot's name must be one of {', '.join(PLOTS)}, got 'side_view'."
+    with pytest.raises(InvalidInput, match=re.escape(sentence)):
+        save_plot(record, "side_view", tmp_path / "walk.png")
     empty = dataclasses.replace(
         record, **{name: array[:0] for name, array in record.arrays().items()}
     )

@@ -124,6 +124,13 @@ def test_a_fall_stops_the_count_of_steps(record: Record) -> None:
     assert f"FELL at {time:.2f} s: the torso tilted" in str(summary)
 
 
+def test_an_interrupted_walk_has_no_final_error(record: Record) -> None:
+    half = {name: array[: len(record) // 2] for name, array in record.arrays().items()}
+    stopped = dataclasses.replace(record, **half).with_settings(interrupted=True)
+    assert stopped.summary().final_position_error is None
+    assert record.with_settings(interrupted=True).summary().final_position_error is not None
+
+
 def test_flight_and_what_was_not_measured_is_left_out(record: Record) -> None:
     zmp = record.zmp.copy()
     zmp[10:20] = np.nan

@@ -1,0 +1,303 @@
+"""URDFs of the walker, written in many ways."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+
+from preview_walk.errors import RobotError
+from preview_walk.robots.inspection import inspect_robot
+from preview_walk.robots.load import load_robot, visual_model
+from preview_walk.types import FEET
+
+original = cache(lambda: load_robot("humanoid-walker"))
+
+
+def numbers(values):
+    return " ".join(repr(float(value)) for value in values)
+
+
+def urdf_of(robot):
+    """Return the walker as a URDF tree: one link per joint, so that some links have no mass."""
+    mj = robot.mj
+    root = ElementTree.Element("robot", name="walker")
+    for body in range(1, mj.nbody):
+        name = mj.body(body).name
+        first, count = int(mj.body_jntadr[body]), int(mj.body_jntnum[body])
+        joints = [] if body == 1 else list(range(first, first + count))
+        chain = [f"{name}_{i}" for i in range(len(joints) - 1)] + [name]
+        for i, joint in enumerate(joints):
+            element = ElementTree.SubElement(
+                root, "joint", name=mj.joint(joint).name, type="revolute"
+            )
+            above = mj.body(int(mj.body_parentid[body])).name if i == 0 else chain[i - 1]
+            ElementTree.SubElement(element, "parent", link=above)
+            ElementTree.SubElement(element, "child", link=chain[i])
+            place = mj.body_pos[body] if i == 0 else np.zeros(3)
+            ElementTree.SubElement(element, "origin", xyz=numbers(place))
+            ElementTree.SubElement(element, "axis", xyz=numbers(mj.jnt_axis[joint]))
+            low, high = mj.jnt_range[joint]
+            effort = robot.effort[joint - 1]
+            ElementTree.SubElement(
+                element,
+                "limit",
+                lower=f"{low}",
+                upper=f"{high}",
+                effort=f"{effort}",
+                velocity="9.5",
+            )
+            ElementTree.SubElement(element, "dynamics", damping="0.5")
+        for link in chain:
+            element = ElementTree.SubElement(root, "link", name=link)
+            if link != name:
+                continue
+            inertial = ElementTree.SubElement(element, "inertial")
+            ElementTree.SubElement(inertial, "origin", xyz=numbers(mj.body_ipos[body]))
+            ElementTree.SubElement(inertial, "mass", value=repr(float(mj.body_mass[body])))
+            axes = np.empty(9)
+            mujoco.mju_quat2Mat(axes, mj.body_iquat[body])
+            axes = axes.reshape(3, 3)
+            inertia = axes @ np.diag(mj.body_inertia[body]) @ axes.T
+            entries = {
+                f"i{a}{b}": repr(float(inertia["xyz".index(a), "xyz".index(b)]))
+                for a, b in ("xx", "xy", "xz", "yy", "yz", "zz")
+            }
+            ElementTree.SubElement(inertial, "inertia", entries)
+            if name.endswith("foot"):
+                add_box(element, "0.2 0.085 0.025", "0.03 0 -0.0625")
+    return root
+
+
+def add_box(link, size, place, kind="collision"):
+    element = ElementTree.SubElement(link, kind)
+    ElementTree.SubElement(element, "origin", xyz=place)
+    ElementTree.SubElement(ElementTree.SubElement(element, "geometry"), "box", size=size)
+    return element
+
+
+@pytest.fixture
+def urdf():
+    return urdf_of(original())
+
+
+@pytest.fixture
+def load(tmp_path):
+    def write(root):
+        path = tmp_path / "walker.urdf"
+        ElementTree.ElementTree(root).write(path)
+        return load_robot(path)
+
+    return write
+
+
+def joint(root, name):
+    return root.find(f"joint[@name='{name}']")
+
+
+def test_urdf_and_mjcf_are_the_same_robot(urdf, load):
+    robot = load(urdf)
+    assert robot.mass == pytest.approx(original().mass + 0.007, abs=1e-6)  # seven virtual links
+    assert robot.joint_names == original().joint_names
+    np.testing.assert_allclose(robot.effort, original().effort)
+    assert robot.com_height == pytest.approx(original().com_height, abs=1e-3)
+    assert robot.leg_length == pytest.approx(original().leg_length)
+    np.testing.assert_allclose(robot.v_limit, 9.5)
+    np.testing.assert_allclose(robot.damping, 0.5)
+    for foot in FEET:
+        assert robot.soles[foot].half_length == pytest.approx(0.1)
+        assert robot.soles[foot].half_width == pytest.approx(0.0425)
+    assert robot.notes[0].startswith("no mass (1 g assumed): torso_0, ")
+
+
+def test_a_root_link_that_is_a_mere_frame(urdf, load):
+    ElementTree.SubElement(urdf, "link", name="base_footprint")
+    element = ElementTree.SubElement(urdf, "joint", name="mount", type="fixed")
+    ElementTree.SubElement(element, "parent", link="base_footprint")
+    ElementTree.SubElement(element, "child", link="pelvis")
+    ElementTree.SubElement(element, "origin", xyz="0 0 0.93")
+    robot = load(urdf)
+    assert robot.com_height == pytest.approx(original().com_height, abs=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["floating", "fixed"])
+def test_a_link_called_world(urdf, load, kind):
+    ElementTree.SubElement(urdf, "link", name="world")
+    element = ElementTree.SubElement(urdf, "joint", name="to_world", type=kind)
+    ElementTree.SubElement(element, "parent", link="world")
+    ElementTree.SubElement(element, "child", link="pelvis")
+    assert load(urdf).joint_names == original().joint_names
+
+
+def test_limits_missing_or_zero(urdf, load):
+    for name in ("left_elbow", "right_elbow"):
+        joint(urdf, name).remove(joint(urdf, name).find("limit"))
+    joint(urdf, "waist_yaw").find("limit").set("effort", "0")
+    joint(urdf, "waist_pitch").find("limit").set("velocity", "0")
+    robot = load(urdf)
+    at = robot.joint_names.index
+    assert np.isinf(robot.q_upper[at("left_elbow")])
+    assert np.isinf(robot.v_limit[at("waist_pitch")])
+    assert robot.effort[at("waist_yaw")] == pytest.approx(3.0 * robot.mass)
+    assert (
+        "no torque limit: 195 N·m (3 N·m per kg) assumed for waist_yaw, left_elbow, right_elbow"
+    ) in robot.notes
+
+
+def test_a_mimic_joint_is_locked(urdf, load):
+    ElementTree.SubElement(joint(urdf, "right_elbow"), "mimic", joint="left_elbow")
+    robot = load(urdf)
+    assert "right_elbow" not in robot.joint_names
+    assert "locked, because another joint drives them: right_elbow" in robot.notes
+
+
+def test_a_leg_joint_that_mimics_is_refused(urdf, load):
+    ElementTree.SubElement(joint(urdf, "right_hip_yaw"), "mimic", joint="left_hip_yaw")
+    with pytest.raises(
+        RobotError,
+        match=r"^the leg joint 'right_hip_yaw' is driven by 'left_hip_yaw'; "
+        "every leg joint must move on its own$",
+    ):
+        load(urdf)
+
+
+def test_point_masses_are_given_a_size(urdf, load):
+    moments = urdf.find("link[@name='left_ankle']/inertial/inertia")
+    for key in moments.attrib:
+        moments.set(key, "0")
+    robot = load(urdf)
+    assert "mass but no inertia (a solid ball's assumed): left_ankle" in robot.notes
+    radius = (3 * 0.5 / (4 * np.pi * 1000)) ** (1 / 3)
+    np.testing.assert_allclose(
+        robot.mj.body("left_ankle").inertia, 0.4 * 0.5 * radius**2, rtol=1e-9
+    )
+
+
+def test_an_inertia_no_solid_has_is_raised(urdf, load):
+    urdf.find("link[@name='left_ankle']/inertial/inertia").set("ixx", "0.01")
+    robot = load(urdf)
+    assert "an inertia that no solid has (the small moments raised): left_ankle" in robot.notes
+
+
+@pytest.mark.parametrize(
+    ("spoil", "sentence"),
+    [
+        (
+            lambda root: root.find("link[@name='torso']/inertial/mass").set("value", "-21.6"),
+            "the body 'torso' has the mass -21.6 kg; expected zero or a positive mass",
+        ),
+        (
+            lambda root: root.find("link[@name='torso']/inertial/inertia").set("iyy", "nan"),
+            "the body 'torso' has the mass 21.6 kg and the moments of inertia "
+            "(0.62, nan, 0.25) kg·m²; expected finite numbers",
+        ),
+        (
+            lambda root: root.find("link[@name='torso']/inertial/inertia").set("iyy", "-1"),
+            "the body 'torso' has the principal inertia -1 kg·m²; "
+            "expected zero or positive inertias",
+        ),
+        (
+            lambda root: joint(root, "left_knee").set("type", "planar"),
+            "the joint 'left_knee' is of type 'planar'; "
+            "expected revolute, continuous, prismatic or fixed",
+        ),
+        (
+            lambda root: joint(root, "left_knee").find("axis").set("xyz", "0 0 0"),
+            "the joint 'left_knee' has a zero axis; expected a direction",
+        ),
+        (
+            lambda root: joint(root, "left_knee").find("axis").set("xyz", "0 1"),
+            'the URDF holds xyz="0 1"; expected 3 number(s)',
+        ),
+        (
+            lambda root: joint(root, "left_knee").find("limit").set("upper", "-1"),
+            "the joint 'left_knee' has the lower limit 0 above the upper limit -1",
+        ),
+        (
+            lambda root: joint(root, "left_knee").find("parent").set("link", "thigh"),
+            "the joint 'left_knee' names the parent link 'thigh', which the URDF lacks",
+        ),
+        (
+            lambda root: root.remove(joint(root, "left_knee")),
+            "'walker.urdf' has 2 root links (pelvis, left_knee); expected one",
+        ),
+        (
+            lambda root: joint(root, "left_knee").set("type", "fixed"),
+            "no two legs found: expected two limbs of at least 6 joints, the lowest of the robot, "
+            "on one body; its limbs end at 'left_elbow' (5 joints), 'right_elbow' (5 joints), "
+            "'left_foot' (5 joints), 'right_foot' (6 joints)",
+        ),
+    ],
+)
+def test_broken_urdfs(urdf, load, spoil, sentence):
+    spoil(urdf)
+    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
+        load(urdf)
+
+
+def test_not_a_urdf(tmp_path):
+    path = tmp_path / "my.urdf"
+    path.write_text("<mujoco/>")
+    sentence = f"'{path}' holds <mujoco>; expected a URDF, whose root is <robot>"
+    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
+        load_robot(path)
+
+
+def test_a_foot_mesh_that_is_missing(urdf, load):
+    link = urdf.find("link[@name='left_foot']")
+    mesh = ElementTree.SubElement(link.find("collision"), "geometry")
+    link.find("collision").remove(link.find("collision/geometry"))
+    ElementTree.SubElement(mesh, "mesh", filename="package://walker/foot.stl")
+    sentence = (
+        "the foot 'left_foot' needs the mesh 'package://walker/foot.stl', which is not found or "
+        "not readable; expected the file, or a description that gives the sole's size and centre"
+    )
+    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
+        load(urdf)
+
+
+def test_looks_that_are_missing_do_not_matter(urdf, load, tmp_path):
+    element = add_box(urdf.find("link[@name='torso']"), "0.2 0.3 0.4", "0 0 0.2", "visual")
+    material = ElementTree.SubElement(element, "material", name="blue")
+    ElementTree.SubElement(material, "color", rgba="0 0 1 1")
+    lost = ElementTree.SubElement(urdf.find("link[@name='pelvis']"), "visual")
+    ElementTree.SubElement(
+        ElementTree.SubElement(lost, "geometry"), "mesh", filename="package://walker/pelvis.dae"
+    )
+    robot = load(urdf)
+    seen = visual_model(robot)
+    assert any((rgba == (0, 0, 1, 1)).all() for rgba in seen.geom_rgba)
+    assert (
+        "visual meshes that are not found or not readable: package://walker/pelvis.dae"
+        in inspect_robot(tmp_path / "walker.urdf").missing
+    )
+
+
+def test_a_robot_without_looks_is_drawn_as_bones(urdf, load):
+    seen = visual_model(load(urdf))
+    assert (seen.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE).sum() > 10
+
+
+def test_model_compiled_from_a_urdf(urdf):
+    """MuJoCo fuses a URDF's root link into the world, where its mass is lost."""
+    for link in urdf.findall("link"):
+        if link.find("inertial") is None:
+            inertial = ElementTree.SubElement(link, "inertial")
+            ElementTree.SubElement(inertial, "mass", value="0.001")
+            ElementTree.SubElement(
+                inertial, "inertia", ixx="1e-5", iyy="1e-5", izz="1e-5", ixy="0", ixz="0", iyz="0"
+            )
+    mj = mujoco.MjModel.from_xml_string(ElementTree.tostring(urdf, encoding="unicode"))
+    sentence = (
+        "the limbs hang on the world: the robot has no base body (MuJoCo fuses a URDF's root link "
+        "into the world); expected a base with a mass, or the .urdf file itself"
+    )
+    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
+        load_robot(mj)
+
+
+def test_a_urdf_that_is_called_xml(urdf, tmp_path):
+    ElementTree.ElementTree(urdf).write(tmp_path / "walker.xml")
+    assert load_robot(tmp_path / "walker.xml").joint_names == original().joint_names
