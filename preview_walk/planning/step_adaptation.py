@@ -29,14 +29,24 @@ from preview_walk.types import Array
 TIMES = 40
 """Landing times that are compared."""
 
-OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT = 100.0, 1.0, 0.05, 0.05
+OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT = 100.0, 1.0, 0.2, 0.05, 2.0
 """Squared metres of DCM offset, of foothold, squared seconds of landing time, squared metres of
-ZMP: the offset comes first."""
+ZMP, and of the offset that the ZMP of the next step can carry: the rest of the offset comes first.
+"""
 
-TOLERANCE = 0.02
+CARRY = 0.4
+"""Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
+
+DEAD_TIME = 0.1
+"""Time (s) of a swing in which the foot does not get further: it speeds up and slows down."""
+
+SHORT_PAUSE = 0.1
+"""Double support (s) after a changed step: the next one cannot wait."""
+
+TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
 
-LATEST = 0.05
+LATEST = 0.12
 """A landing nearer than this (s) is not changed any more."""
 
 
@@ -86,9 +96,9 @@ def adapt_step(
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
     pause = following.lift - step.land if following is not None else plan.settle
-    half_pause = 0.5 * min(pause, plan.settle)
+    half_pause = 0.5 * min(pause, SHORT_PAUSE)
     omega = limits.omega
-    tau = exp(omega * (step.land + half_pause - t))
+    tau = exp(omega * (step.land + 0.5 * min(pause, plan.settle) - t))
     error = dcm - planned[0]
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes = stance[:2, :2]
@@ -131,7 +141,7 @@ def _best(
     land = np.append(np.linspace(first, last, TIMES), max(step.land, first))
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
-    span = (limits.swing_speed * (land - t))[:, None]
+    span = (limits.swing_speed * (land - t - DEAD_TIME))[:, None]
     reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     place_low = np.clip(now - span, reach_low, reach_high)
@@ -142,16 +152,19 @@ def _best(
     lever = tau - 1.0
     delta = np.zeros_like(free)
     place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
-    w, s, z = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT
-    for _ in range(30):  # coordinate descent: convex, two variables, a box
+    carry = np.zeros_like(free)
+    room = CARRY * np.array(limits.zmp)
+    w, s, z, c = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT
+    for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
-            (w * (free - lever * delta - offset) + s * goal) / (w + s), place_low, place_high
+            (w * (free - lever * delta - offset - carry) + s * goal) / (w + s), place_low, place_high
         )
         delta = np.clip(
-            w * lever * (free - offset - place) / (w * lever * lever + z), low, high
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high
         )
-    miss = free - lever * delta - offset - place
-    cost = (w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
+        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), -room, room)
+    miss = free - lever * delta - offset - carry - place
+    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
     cost += TIME_WEIGHT * (land - step.land) ** 2
     best = int(np.argmin(cost))
     x, y = place[best].tolist()
@@ -170,9 +183,11 @@ def shifted(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepP
     move = np.eye(4)
     move[:3, 3] = pose[:3, 3] - step.pose[:3, 3]
     delay = land - step.land
-    later = [
-        Footstep(s.foot, move @ s.pose, s.lift + delay, s.land + delay)
-        for s in plan.steps[index + 1 :]
-    ]
+    later = []
+    for following in plan.steps[index + 1 :]:
+        if not later:  # the double support is cut short
+            delay -= max(0.0, following.lift - step.land - SHORT_PAUSE)
+        lift, down = following.lift + delay, following.land + delay
+        later.append(Footstep(following.foot, move @ following.pose, lift, down))
     moved = plan.retarget(t, pose, land)
     return moved.replace_after(t, later)

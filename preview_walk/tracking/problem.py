@@ -42,6 +42,8 @@ BASE_WEIGHT = 1e-4
 BRAKE = 100.0
 """A contact's remaining velocity decays at this rate (1/s)."""
 
+CONTACT = 100.0
+LIMIT = 10.0
 LIMIT_HORIZON = 0.05
 """Time (s) within which a joint may come to its position limit."""
 
@@ -71,7 +73,8 @@ class TickProblem:
         self.nv, self.nf = nv, 6 * len(self.contacts)
         rows = [task.rows for task in tasks]
         self.ny = sum(rows)
-        self.n = nv + self.nf + self.ny
+        self.nc = self.nf
+        self.n = nv + self.nf + self.ny + self.nc + n
         self._normal = nv + 2 + 6 * np.arange(len(self.contacts))
 
         # Rows, in the order of the table above.
@@ -132,7 +135,8 @@ class TickProblem:
             for r in range(6):
                 for j in np.flatnonzero(related[:, _tip_dof(robot, foot)]):
                     source = self._contact_at + (6 * k + r) * nv + int(j)
-                    entries.append((spans["contact"].start + 6 * k + r, int(j), source, 1.0))
+                    entries.append((spans["contact"].start + 6 * k + r, int(j), source, CONTACT))
+                entries.append((spans["contact"].start + 6 * k + r, nv + self.nf + self.ny + 6 * k + r, one, -1.0))
         for r in range(self.ny):
             row = spans["task"].start + r
             for j in range(nv):
@@ -146,6 +150,7 @@ class TickProblem:
             entries.append((spans["normal"].start + k, nv + 6 * k + 2, one, 1.0))
         for j in range(n):
             entries.append((spans["limit"].start + j, 6 + j, one, 1.0))
+            entries.append((spans["limit"].start + j, nv + self.nf + self.ny + self.nc + j, one, 1.0))
 
         order = sorted(range(len(entries)), key=lambda e: (entries[e][1], entries[e][0]))
         row_of = np.array([entries[e][0] for e in order], dtype=np.int32)
@@ -161,7 +166,8 @@ class TickProblem:
                 np.full(6, BASE_WEIGHT),
                 posture.weight,
                 np.full(self.nf, wrench_weight),
-                np.ones(self.ny),
+                np.ones(self.ny + self.nc),
+                np.full(n, LIMIT),
             ]
         )
         self.P = sparse.diags(diagonal, format="csc")
@@ -182,7 +188,7 @@ class TickProblem:
             terms = dynamics.feet[foot]
             self._jacobians[k][:] = terms.jacobian
             at = spans["contact"].start + 6 * k
-            lower[at : at + 6] = upper[at : at + 6] = -terms.drift - BRAKE * terms.velocity
+            lower[at : at + 6] = upper[at : at + 6] = CONTACT * (-terms.drift - BRAKE * terms.velocity)
             upper[spans["normal"].start + k] = normal_limit[foot] / WRENCH_UNIT[2]
         for task, jacobian, target in zip(
             self.tasks, self._task_jacobians, self._task_targets, strict=True
