@@ -61,8 +61,13 @@ class Polygon:
 
     @classmethod
     def box(cls, x: tuple[float, float], y: tuple[float, float]) -> Polygon:
-        """Return a rectangle along the axes, from its ranges; a point where they are empty."""
-        return cls(_AXES, np.array([x[1], -x[0], max(y), -min(y)]))
+        """Return a rectangle along the axes, from the ends of its ranges in any order."""
+        return cls(_AXES, np.array([max(x), -min(x), max(y), -min(y)]))
+
+    @classmethod
+    def point(cls, point: Array) -> Polygon:
+        """Return a single point."""
+        return cls(_AXES, _AXES @ point)
 
     @classmethod
     def disc(cls, centre: Array, radius: float) -> Polygon:

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.limits import GaitLimits
-from preview_walk.planning.pose import compose, heading_of, relative
-from preview_walk.planning.support import sole_gap, support_margin, support_polygon
+from preview_walk.planning.pose import heading_of
+from preview_walk.planning.support import support_margin, support_polygon
 from preview_walk.planning.zmp_trajectory import zmp_reference
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, Array, other
 
@@ -128,13 +128,10 @@ def _steps(plan: FootstepPlan, limits: GaitLimits) -> Iterator[Finding]:
                 f"at least {limits.min_swing_time:.3f} s is needed",
                 number,
             )
-        here, start = heading_of(stance), heading_of(plan.start_pose(step))
-        dx, dy, turn = relative(start, heading_of(step.pose))
-        path = (compose(start, s * dx, s * dy, s * turn) for s in np.linspace(0.1, 0.9, 9).tolist())
-        overlap = -min(sole_gap(here, sole, limits.sole) for sole in path)
-        if overlap > 0.0:
-            beside = f"the {other(step.foot)} sole ({overlap:.3f} m)"
-            yield Finding(step.land, f"step {number} swings across {beside}", number)
+        way = (heading_of(pose) for pose in (stance, plan.start_pose(step), step.pose))
+        crossing = limits.crossing(step.foot, *way)
+        if crossing is not None:
+            yield Finding(step.land, f"step {number} {crossing}", number)
 
 
 def _intervals(plan: FootstepPlan) -> Iterator[tuple[float, float]]:

@@ -60,7 +60,7 @@ def to_pose(
         move = _towards(relative(centre, target), size, bounds)
         side = 0.5 * planner.step_width if foot == "left" else -0.5 * planner.step_width
         wanted = compose(compose(centre, *move), 0.0, side)
-        soles[foot] = bounds.clamp(foot, stance, wanted)
+        soles[foot] = bounds.clamp(foot, stance, wanted, soles[foot])
         land = lift + planner.single_support_time
         steps.append(Footstep(foot, pose_at(*soles[foot], z), lift, land))
         foot, lift = other(foot), land + planner.double_support_time
@@ -106,13 +106,7 @@ def from_list(
         if foot not in FEET:
             raise InvalidInput(f"step {number} must be of foot 'left' or 'right', got {foot!r}.")
         pose = _sole_at(place, f"the sole of step {number}", ground)
-        stance = soles[other(foot)]
-        problem = bounds.problem(foot, stance, pose)
-        if problem is not None and not shorten:
-            raise InvalidInput(f"step {number} {problem}.")
-        if problem is not None:
-            landing = bounds.clamp(foot, heading_of(stance), heading_of(pose))
-            pose = pose_at(*landing, float(pose[2, 3]))
+        pose = bounds.checked(number, foot, soles[other(foot)], soles[foot], pose, shorten)
         land = lift + time * (1.0 - planner.double_support_ratio)
         steps.append(Footstep(foot, pose, lift, land))
         soles[foot] = pose

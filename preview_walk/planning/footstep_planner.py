@@ -187,12 +187,10 @@ class FootstepPlanner:
             frame = compose(frame, stride.forward, stride.left, 0.5 * stride.turn)
             pose = sole_beside(frame, foot, width, z)
             stance = soles[other(foot)]
-            problem = limits.problem(foot, stance, pose) if limits is not None else None
-            if problem is not None and limits is not None:
-                if not shorten:
-                    raise InvalidInput(f"step {len(plan.steps) + len(steps) + 1} {problem}.")
-                landing = limits.clamp(foot, heading_of(stance), heading_of(pose))
-                pose = pose_at(*landing, z)
+            if limits is not None:
+                number = len(plan.steps) + len(steps) + 1
+                pose = limits.checked(number, foot, stance, soles[foot], pose, shorten)
+                landing = heading_of(pose)
                 frame = compose(landing, 0.0, -0.5 * width if foot == "left" else 0.5 * width)
             land = lift + time * (1.0 - ratio)
             steps.append(Footstep(foot, pose, lift, land))

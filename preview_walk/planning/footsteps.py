@@ -1,7 +1,6 @@
 """Footsteps as values, and the immutable plan that every reference is a function of.
 
-To change a walk, make another plan (`FootstepPlan.replace_after`); nothing else remembers the
-future.  All look-ups bisect, so a plan of an hour is as quick to query as one of ten seconds.
+To change a walk, make another plan (`FootstepPlan.replace_after`). All look-ups bisect.
 """
 
 from __future__ import annotations
@@ -121,7 +120,7 @@ class FootstepPlan(Sequence[Footstep]):
                 f"a plan must begin with one left and one right stance footstep, got {found}."
             )
         if stance[0].land != stance[1].land:
-            both = f"{stance[0].land} s and {stance[1].land} s"
+            both = " and ".join(f"{s.land} s" for s in stance)
             raise InvalidInput(f"both stance footsteps must have the same time, got {both}.")
         if stance[0].foot == "right":
             items = (items[1], items[0], *items[2:])
@@ -278,10 +277,7 @@ class FootstepPlan(Sequence[Footstep]):
         return self._with(self._items[:index], (replace(step, pose=pose, land=land), *later))
 
     def since(self, t: float) -> FootstepPlan:
-        """Return the plan without the steps landed before the last two: for endless walks.
-
-        Every look-up and reference at times >= t is that of the whole plan.
-        """
+        """Return the plan without its past, the same at all times >= t (s): for endless walks."""
         first = bisect_right(self._lands, t) - 2
         if first <= 0:
             return self

@@ -57,7 +57,7 @@ def straight(
         strides = [Stride(distance * share / sum(shares), width=width) for share in shares]
         if max((abs(s.forward) for s in strides), default=0.0) > abs(planner.step_length) + _CLOSE:
             raise InvalidInput("a stride is longer than the planner's step_length.")
-        return planner.walk([*strides, Stride()], start, start_foot, bounds)
+        return planner.walk(strides + [Stride()] * bool(count), start, start_foot, bounds)
 
     return _fewest(
         _count(distance, min(abs(planner.step_length), reach)), build, [planner.step_width]
@@ -79,7 +79,7 @@ def sideways(
     reach = min(abs(planner.step_length), bounds.max_width - planner.step_width)
 
     def build(count: int, width: float) -> FootstepPlan:
-        pair = [Stride(left=distance / count, width=width), Stride(width=width)]
+        pair = [Stride(left=distance / max(count, 1), width=width), Stride(width=width)]
         return planner.walk(pair * count, start, "left" if distance > 0.0 else "right", bounds)
 
     return _fewest(_count(distance, reach), build, [planner.step_width])
@@ -114,7 +114,7 @@ def turn_in_place(
     widths = np.arange(planner.step_width, max(bounds.max_width, planner.step_width) + 0.01, 0.02)
 
     def build(count: int, width: float) -> FootstepPlan:
-        pair = [Stride(turn=angle / count, width=width), Stride(width=width)]
+        pair = [Stride(turn=angle / max(count, 1), width=width), Stride(width=width)]
         closing = [Stride()] * 2 if count and width > planner.step_width else []
         return planner.walk([*pair * count, *closing], start, first, bounds)
 
@@ -156,7 +156,7 @@ def arc(
             raise InvalidInput("a stride is longer than the planner's step_length.")
         chords = [2.0 * radius * sin(0.5 * abs(turn)) for turn in turns]
         strides = [Stride(c, turn=t, width=width) for c, t in zip(chords, turns, strict=True)]
-        return planner.walk([*strides, Stride()], start, first, bounds)
+        return planner.walk(strides + [Stride()] * bool(count), start, first, bounds)
 
     return _fewest(
         _count(radius * angle, min(abs(planner.step_length), bounds.forward)),

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from math import isfinite, sqrt
+from math import cos, isfinite, sin, sqrt
 
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.cart_table import GRAVITY
-from preview_walk.planning.pose import Heading, compose, heading_of, relative
+from preview_walk.planning.pose import Heading, compose, heading_of, pose_at, relative
 from preview_walk.planning.support import Sole, sole_gap
 from preview_walk.types import Array, Foot, other
 
 _TOLERANCE = 1e-6
+_TRIES = 60
+_ON_THE_WAY = (0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9)
 
 
 @dataclass(frozen=True)
@@ -159,16 +161,64 @@ class GaitLimits:
             return f"{state}, at least {self.clearance:.3f} m must stay free"
         return None
 
-    def clamp(self, foot: Foot, stance: Heading, goal: Heading) -> Heading:
+    def crossing(self, foot: Foot, stance: Heading, start: Heading, landing: Heading) -> str | None:
+        """Return what is wrong with swinging straight from `start` to `landing`, or None.
+
+        Args:
+            foot: the swinging foot.
+            stance: heading of the standing sole.
+            start: heading of the swinging sole at lift.
+            landing: heading of the swinging sole at landing.
+        """
+        overlap = -self._sweep(stance, start, landing)
+        if overlap <= _TOLERANCE:
+            return None
+        return f"swings across the {other(foot)} sole (overlap {overlap:.3f} m)"
+
+    def checked(
+        self, number: int, foot: Foot, stance: Array, start: Array, pose: Array, shorten: bool
+    ) -> Array:
+        """Return the landing pose (4, 4) of step `number` if it is allowed.
+
+        Args:
+            number: of the step, for the message.
+            foot: the landing foot.
+            stance: pose (4, 4) of the standing sole.
+            start: pose (4, 4) of the swinging sole at lift.
+            pose: pose (4, 4) of the swinging sole at landing.
+            shorten: return the nearest allowed level pose instead of refusing.
+
+        Raises:
+            InvalidInput: the step breaks a limit.
+        """
+        here, begin, end = heading_of(stance), heading_of(start), heading_of(pose)
+        problem = self.problem(foot, stance, pose) or self.crossing(foot, here, begin, end)
+        if problem is None:
+            return pose
+        if not shorten:
+            raise InvalidInput(f"step {number} {problem}.")
+        return pose_at(*self.clamp(foot, here, end, begin), float(pose[2, 3]))
+
+    def _sweep(self, stance: Heading, start: Heading, landing: Heading) -> float:
+        """Return the least gap (m) on the way."""
+        dx, dy, turn = relative(start, landing)
+        way = (compose(start, s * dx, s * dy, s * turn) for s in _ON_THE_WAY)
+        return min(sole_gap(stance, sole, self.sole) for sole in way)
+
+    def clamp(
+        self, foot: Foot, stance: Heading, goal: Heading, start: Heading | None = None
+    ) -> Heading:
         """Return the allowed heading of the landing sole that is near `goal`.
 
-        Each coordinate is cut to its bound; then the step is widened until the soles are clear
-        of each other.
+        Each coordinate is cut to its bound; then the step is widened (and turned less) until the
+        soles are clear of each other, on the way too, and until the other foot can follow
+        straight past this one.
 
         Args:
             foot: the landing foot.
             stance: heading of the standing sole.
             goal: heading where the sole would land without limits.
+            start: heading from which the foot swings; None leaves the way unchecked.
         """
         x, y, turn = relative(stance, goal)
         side = 1.0 if foot == "left" else -1.0
@@ -176,12 +226,23 @@ class GaitLimits:
         width = min(self.max_width, max(self.min_width, side * y))
         turn_in = side * min(self.turn_out, max(-self.turn_in, side * turn))
         inside = abs(x - x_in) + abs(side * y - width) + abs(turn - turn_in) < _TOLERANCE
-        x, turn = x_in, turn_in
         # Left alone where nothing is out of bounds, so that allowed steps stay bit for bit.
-        landing = goal if inside else compose(stance, x, side * width, turn)
-        while sole_gap(stance, landing, self.sole) < self.clearance:
+        landing = goal if inside else compose(stance, x_in, side * width, turn_in)
+        for _ in range(_TRIES):
+            if self._clear(side, stance, landing, start):
+                break
             if width >= self.max_width:
-                turn *= 0.5
+                turn_in *= 0.5
             width = min(self.max_width, width + 0.01)
-            landing = compose(stance, x, side * width, turn)
+            landing = compose(stance, x_in, side * width, turn_in)
         return landing
+
+    def _clear(self, side: float, stance: Heading, landing: Heading, start: Heading | None) -> bool:
+        if sole_gap(stance, landing, self.sole) < self.clearance - _TOLERANCE:
+            return False
+        if start is not None and self._sweep(stance, start, landing) < 0.0:
+            return False
+        # The other foot stands beside the track of this one: it will pass it.
+        _, y, turn = relative(landing, stance)
+        track = self.sole.half_width * (1.0 + cos(turn)) + self.sole.half_length * abs(sin(turn))
+        return -side * y >= min(track, self.min_width) - _TOLERANCE

@@ -28,6 +28,8 @@ and by 27 mm if every step not yet lifted is changed."""
 START_DELAY = 1.2
 """Time (s) from a command to a standing robot to its first lift, in which the weight shifts."""
 
+_ROUNDING = 1e-6
+
 
 def follow_velocity(
     plan: FootstepPlan,
@@ -71,23 +73,26 @@ def follow_velocity(
     else:
         return plan
     stance = heading_of(plan.sole(other(foot), lift))
-    before = limits.centre(foot, heading_of(plan.sole(foot, lift)))
-    speed = _speed(relative(before, limits.centre(other(foot), stance))[0], limits)
+    swing = heading_of(plan.sole(foot, lift))
+    advance = relative(limits.centre(foot, swing), limits.centre(other(foot), stance))[0]
+    speed = _speed(advance, limits)
     z = float(plan.sole(other(foot), lift)[2, 3])
     steps: list[Footstep] = []
     while True:
         follow = moving and lift < t + duration
-        closing = not follow and abs(speed) <= limits.speed_change
+        closing = not follow and abs(speed) <= limits.speed_change + _ROUNDING
         goal = vx if follow else 0.0
-        speed = min(speed + limits.speed_change, max(speed - limits.speed_change, goal))
+        most = limits.speed_change
+        speed = goal if closing else min(speed + most, max(speed - most, goal))
         time, ratio = rhythm(speed, limits)
         move = _move(foot, speed * time, vy * time, wz * time, limits) if follow else None
-        sole = _landing(foot, stance, move or (speed * time, 0.0, 0.0), limits)
+        target = _target(foot, stance, move or (speed * time, 0.0, 0.0), limits)
+        sole = limits.clamp(foot, stance, target, swing)
         land = lift + time * (1.0 - ratio)
         steps.append(Footstep(foot, pose_at(*sole, z), lift, land))
         if closing:
             return plan.replace_after(t + LEAD, steps)
-        stance, foot, lift = sole, other(foot), land + time * ratio
+        swing, stance, foot, lift = stance, sole, other(foot), land + time * ratio
 
 
 def rhythm(speed: float, limits: GaitLimits) -> tuple[float, float]:
@@ -177,7 +182,3 @@ def _target(foot: Foot, stance: Heading, move: Heading, limits: GaitLimits) -> H
     centre = compose(limits.centre(other(foot), stance), 0.0, 0.0, 0.5 * turn)
     half = 0.5 * limits.step_width
     return compose(compose(centre, dx, dy, 0.5 * turn), 0.0, half if foot == "left" else -half)
-
-
-def _landing(foot: Foot, stance: Heading, move: Heading, limits: GaitLimits) -> Heading:
-    return limits.clamp(foot, stance, _target(foot, stance, move, limits))

@@ -127,7 +127,7 @@ def test_a_leg_gives_limits_in_proportion():
         (
             lambda: GaitLimits(slow_step_time=0.7, fast_step_time=0.3),
             "fast_step_time must be more than half of slow_step_time and not longer, "
-            "got 0.7 s and 0.3 s.",
+            "got 0.3 s and 0.7 s.",
         ),
         (
             lambda: GaitLimits(slow_double_support=1.0),
