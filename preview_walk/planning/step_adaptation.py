@@ -37,10 +37,11 @@ ZMP, and of the offset that the ZMP of the next step can carry: the rest of the 
 CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
 
-DEAD_TIME = 0.1
-"""Time (s) of a swing in which the foot does not get further: it speeds up and slows down."""
+SWING_SHARE, COAST_SHARE = 0.53, 0.2
+"""A quintic from rest to rest covers 8/15 of its top speed times its time; a foot under way gets
+further by this share of its speed times the time left."""
 
-SHORT_PAUSE = 0.1
+SHORT_PAUSE = 0.06
 """Double support (s) after a changed step: the next one cannot wait."""
 
 TOLERANCE = 0.03
@@ -59,7 +60,7 @@ class StepLimits:
         omega: natural frequency of the pendulum (1/s).
         zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
         swing_time: shortest and longest time in the air (s).
-        swing_speed: mean speed (m/s) that the swing foot can reach.
+        swing_speed: top speed (m/s) of the swing foot.
         tolerance: error of the DCM (m) at landing that needs no answer.
     """
 
@@ -76,7 +77,8 @@ def adapt_step(
     t: float,
     dcm: Array,
     planned: tuple[Array, Array],
-    foot_now: Array,
+    swing: tuple[Array, Array],
+    nominal: Footstep,
     limits: StepLimits,
 ) -> FootstepPlan | None:
     """Return the plan whose step in the air answers a DCM error, or None where none is needed.
@@ -88,7 +90,8 @@ def adapt_step(
         t: now (s).
         dcm: (2,) measured DCM in the world (m).
         planned: the plan's DCM (2,) now and at the middle of the double support after the landing.
-        foot_now: (3,) position of the swinging sole (m).
+        swing: (3,) position (m) and velocity (m/s) of the swinging sole.
+        nominal: the step as it was commanded, before any change.
         limits: what a recovery step may be.
     """
     step = plan.swing_at(t)
@@ -103,15 +106,15 @@ def adapt_step(
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes = stance[:2, :2]
     local = error @ axes
-    # What the ZMP may move by, from the plan's mean ZMP over the rest of the step.
+    # The plan's mean ZMP over the rest of the step; delta moves it as far as the sole allows.
     mean = ((planned[1] - tau * planned[0]) / (1.0 - tau) - stance[:2, 3]) @ axes
-    room = np.array(limits.zmp)
-    low, high = np.minimum(-room - mean, 0.0), np.maximum(room - mean, 0.0)
+    high = np.array(limits.zmp)
+    low = -high
     grown = local * tau
     rest = grown - np.clip(grown / (tau - 1.0), low, high) * (tau - 1.0)
     if np.abs(rest).max() <= limits.tolerance:
         return None
-    return _best(plan, step, t, dcm, planned, foot_now, limits, half_pause, mean, low, high)
+    return _best(plan, step, t, dcm, planned, swing, nominal, limits, half_pause, mean, low, high)
 
 
 def _best(
@@ -120,7 +123,8 @@ def _best(
     t: float,
     dcm: Array,
     planned: tuple[Array, Array],
-    foot_now: Array,
+    swing: tuple[Array, Array],
+    nominal: Footstep,
     limits: StepLimits,
     half_pause: float,
     mean: Array,
@@ -131,17 +135,19 @@ def _best(
     axes, origin = stance[:2, :2], stance[:2, 3]
     side = 1.0 if step.foot == "left" else -1.0
     gait = limits.gait
-    goal = (step.pose[:2, 3] - origin) @ axes
+    goal = (nominal.pose[:2, 3] - origin) @ axes
     offset = (planned[1] - step.pose[:2, 3]) @ axes
     start = (dcm - origin) @ axes
-    now = (foot_now[:2] - origin) @ axes
+    now, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
 
     first = max(t + LATEST, step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
-    land = np.append(np.linspace(first, last, TIMES), max(step.land, first))
+    land = np.append(np.linspace(first, last, TIMES), max(nominal.land, first))
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
-    span = (limits.swing_speed * (land - t - DEAD_TIME))[:, None]
+    left = (land - t)[:, None]
+    span = SWING_SHARE * limits.swing_speed * left
+    now = now + COAST_SHARE * speed * left
     reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     place_low = np.clip(now - span, reach_low, reach_high)
@@ -165,7 +171,7 @@ def _best(
         carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), -room, room)
     miss = free - lever * delta - offset - carry - place
     cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
-    cost += TIME_WEIGHT * (land - step.land) ** 2
+    cost += TIME_WEIGHT * (land - nominal.land) ** 2
     best = int(np.argmin(cost))
     x, y = place[best].tolist()
     heading = heading_of(stance)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.dcm import nearest_inside
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, ComReference, WalkingPattern
@@ -79,6 +79,7 @@ class Walker:
         }
         self.step_limits = _step_limits(robot, self.pattern.omega)
         self._adapt_at = -np.inf
+        self._nominal: Footstep | None = None
         self.reference: ComReference | None = None
 
     @property
@@ -115,6 +116,9 @@ class Walker:
             return
         following = next((s for s in pattern.plan.steps if s.lift >= step.land), None)
         pause = following.lift - step.land if following is not None else pattern.plan.settle
+        if self._nominal is None or self._nominal.lift != step.lift:
+            self._nominal = step
+        terms = dynamics.feet[step.foot]
         switch = step.land + 0.5 * pause
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
         plan = adapt_step(
@@ -122,7 +126,8 @@ class Walker:
             t,
             dcm,
             (pattern.planned_dcm(t), pattern.planned_dcm(switch)),
-            dynamics.feet[step.foot].position,
+            (terms.position, terms.rotation @ terms.velocity[:3]),
+            self._nominal,
             self.step_limits,
         )
         if plan is not None:
@@ -229,7 +234,7 @@ def _step_limits(robot: Robot, omega: float) -> StepLimits:
         omega,
         (0.8 * half.half_length, 0.8 * half.half_width),
         (1.1 * pendulum, 3.5 * pendulum),
-        1.6 * float(np.sqrt(leg)),
+        2.8 * float(np.sqrt(leg)),
         TOLERANCE * leg,
     )
 
