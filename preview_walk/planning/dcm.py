@@ -20,3 +20,22 @@ def planned_dcm(zmp: Array, omega_dt: float) -> Array:
     back, _ = lfilter([1.0 - decay], [1.0, -decay], zmp[::-1], axis=0, zi=decay * last[None])
     result: Array = back[::-1]
     return result
+
+
+def nearest_inside(polygon: Array, point: Array) -> Array:
+    """Return the point (2,) of a convex polygon (M, 2), counter-clockwise, nearest to `point`."""
+    x, y = point.tolist()
+    corners = polygon.tolist()
+    best, nearest, outside = float("inf"), (x, y), False
+    for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True):
+        ex, ey = bx - ax, by - ay
+        px, py = x - ax, y - ay
+        if ex * py - ey * px >= 0.0:
+            continue
+        outside = True
+        share = min(1.0, max(0.0, (px * ex + py * ey) / (ex * ex + ey * ey)))
+        dx, dy = px - share * ex, py - share * ey
+        distance = dx * dx + dy * dy
+        if distance < best:
+            best, nearest = distance, (ax + share * ex, ay + share * ey)
+    return np.array(nearest) if outside else point

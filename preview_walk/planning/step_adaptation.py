@@ -29,14 +29,25 @@ from preview_walk.types import Array
 TIMES = 40
 """Landing times that are compared."""
 
-OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT = 100.0, 1.0, 0.05, 0.05
+OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT = 100.0, 1.0, 0.2, 0.05, 2.0
 """Squared metres of DCM offset, of foothold, squared seconds of landing time, squared metres of
-ZMP: the offset comes first."""
+ZMP, and of the offset that the ZMP of the next step can carry: the rest of the offset comes first.
+"""
 
-TOLERANCE = 0.02
+CARRY = 0.4
+"""Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
+
+SWING_SHARE, COAST_SHARE = 0.53, 0.2
+"""A quintic from rest to rest covers 8/15 of its top speed times its time; a foot under way gets
+further by this share of its speed times the time left."""
+
+SHORT_PAUSE = 0.06
+"""Double support (s) after a changed step: the next one cannot wait."""
+
+TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
 
-LATEST = 0.05
+LATEST = 0.12
 """A landing nearer than this (s) is not changed any more."""
 
 
@@ -49,7 +60,7 @@ class StepLimits:
         omega: natural frequency of the pendulum (1/s).
         zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
         swing_time: shortest and longest time in the air (s).
-        swing_speed: mean speed (m/s) that the swing foot can reach.
+        swing_speed: top speed (m/s) of the swing foot.
         tolerance: error of the DCM (m) at landing that needs no answer.
     """
 
@@ -66,7 +77,8 @@ def adapt_step(
     t: float,
     dcm: Array,
     planned: tuple[Array, Array],
-    foot_now: Array,
+    swing: tuple[Array, Array],
+    nominal: Footstep,
     limits: StepLimits,
 ) -> FootstepPlan | None:
     """Return the plan whose step in the air answers a DCM error, or None where none is needed.
@@ -78,7 +90,8 @@ def adapt_step(
         t: now (s).
         dcm: (2,) measured DCM in the world (m).
         planned: the plan's DCM (2,) now and at the middle of the double support after the landing.
-        foot_now: (3,) position of the swinging sole (m).
+        swing: (3,) position (m) and velocity (m/s) of the swinging sole.
+        nominal: the step as it was commanded, before any change.
         limits: what a recovery step may be.
     """
     step = plan.swing_at(t)
@@ -86,22 +99,22 @@ def adapt_step(
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
     pause = following.lift - step.land if following is not None else plan.settle
-    half_pause = 0.5 * min(pause, plan.settle)
+    half_pause = 0.5 * min(pause, SHORT_PAUSE)
     omega = limits.omega
-    tau = exp(omega * (step.land + half_pause - t))
+    tau = exp(omega * (step.land + 0.5 * min(pause, plan.settle) - t))
     error = dcm - planned[0]
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes = stance[:2, :2]
     local = error @ axes
-    # What the ZMP may move by, from the plan's mean ZMP over the rest of the step.
+    # The plan's mean ZMP over the rest of the step; delta moves it as far as the sole allows.
     mean = ((planned[1] - tau * planned[0]) / (1.0 - tau) - stance[:2, 3]) @ axes
-    room = np.array(limits.zmp)
-    low, high = np.minimum(-room - mean, 0.0), np.maximum(room - mean, 0.0)
+    high = np.array(limits.zmp)
+    low = -high
     grown = local * tau
     rest = grown - np.clip(grown / (tau - 1.0), low, high) * (tau - 1.0)
     if np.abs(rest).max() <= limits.tolerance:
         return None
-    return _best(plan, step, t, dcm, planned, foot_now, limits, half_pause, mean, low, high)
+    return _best(plan, step, t, dcm, planned, swing, nominal, limits, half_pause, mean, low, high)
 
 
 def _best(
@@ -110,7 +123,8 @@ def _best(
     t: float,
     dcm: Array,
     planned: tuple[Array, Array],
-    foot_now: Array,
+    swing: tuple[Array, Array],
+    nominal: Footstep,
     limits: StepLimits,
     half_pause: float,
     mean: Array,
@@ -121,17 +135,19 @@ def _best(
     axes, origin = stance[:2, :2], stance[:2, 3]
     side = 1.0 if step.foot == "left" else -1.0
     gait = limits.gait
-    goal = (step.pose[:2, 3] - origin) @ axes
+    goal = (nominal.pose[:2, 3] - origin) @ axes
     offset = (planned[1] - step.pose[:2, 3]) @ axes
     start = (dcm - origin) @ axes
-    now = (foot_now[:2] - origin) @ axes
+    now, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
 
     first = max(t + LATEST, step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
-    land = np.append(np.linspace(first, last, TIMES), max(step.land, first))
+    land = np.append(np.linspace(first, last, TIMES), max(nominal.land, first))
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
-    span = (limits.swing_speed * (land - t))[:, None]
+    left = (land - t)[:, None]
+    span = SWING_SHARE * limits.swing_speed * left
+    now = now + COAST_SHARE * speed * left
     reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     place_low = np.clip(now - span, reach_low, reach_high)
@@ -142,17 +158,20 @@ def _best(
     lever = tau - 1.0
     delta = np.zeros_like(free)
     place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
-    w, s, z = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT
-    for _ in range(30):  # coordinate descent: convex, two variables, a box
+    carry = np.zeros_like(free)
+    room = CARRY * np.array(limits.zmp)
+    w, s, z, c = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT
+    for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
-            (w * (free - lever * delta - offset) + s * goal) / (w + s), place_low, place_high
+            (w * (free - lever * delta - offset - carry) + s * goal) / (w + s), place_low, place_high
         )
         delta = np.clip(
-            w * lever * (free - offset - place) / (w * lever * lever + z), low, high
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high
         )
-    miss = free - lever * delta - offset - place
-    cost = (w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
-    cost += TIME_WEIGHT * (land - step.land) ** 2
+        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), -room, room)
+    miss = free - lever * delta - offset - carry - place
+    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
+    cost += TIME_WEIGHT * (land - nominal.land) ** 2
     best = int(np.argmin(cost))
     x, y = place[best].tolist()
     heading = heading_of(stance)
@@ -170,9 +189,11 @@ def shifted(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepP
     move = np.eye(4)
     move[:3, 3] = pose[:3, 3] - step.pose[:3, 3]
     delay = land - step.land
-    later = [
-        Footstep(s.foot, move @ s.pose, s.lift + delay, s.land + delay)
-        for s in plan.steps[index + 1 :]
-    ]
+    later = []
+    for following in plan.steps[index + 1 :]:
+        if not later:  # the double support is cut short
+            delay -= max(0.0, following.lift - step.land - SHORT_PAUSE)
+        lift, down = following.lift + delay, following.land + delay
+        later.append(Footstep(following.foot, move @ following.pose, lift, down))
     moved = plan.retarget(t, pose, land)
     return moved.replace_after(t, later)

@@ -7,16 +7,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.dcm import nearest_inside
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
 from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
 from preview_walk.planning.swing_trajectory import Swing
-from preview_walk.planning.support import Sole
+from preview_walk.planning.support import Sole, support_polygon
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.dynamics import Dynamics
+from preview_walk.tracking.dynamics import Dynamics, FrameTerms
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.momentum_model import momentum_model
 from preview_walk.tracking.whole_body import WholeBodyController
@@ -62,6 +63,7 @@ class Walker:
         self.body = WholeBodyController(robot, self.gains, friction, solver)
         self.body.update(q, np.zeros(robot.pin.nv))
         half = robot.soles["left"]
+        self.sole = Sole(half.half_length, half.half_width)
         self.swing_height = SWING_HEIGHT * robot.leg_length
         self.pattern = WalkingPattern(
             plan,
@@ -77,6 +79,7 @@ class Walker:
         }
         self.step_limits = _step_limits(robot, self.pattern.omega)
         self._adapt_at = -np.inf
+        self._nominal: Footstep | None = None
         self.reference: ComReference | None = None
 
     @property
@@ -113,6 +116,9 @@ class Walker:
             return
         following = next((s for s in pattern.plan.steps if s.lift >= step.land), None)
         pause = following.lift - step.land if following is not None else pattern.plan.settle
+        if self._nominal is None or self._nominal.lift != step.lift:
+            self._nominal = step
+        terms = dynamics.feet[step.foot]
         switch = step.land + 0.5 * pause
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
         plan = adapt_step(
@@ -120,7 +126,8 @@ class Walker:
             t,
             dcm,
             (pattern.planned_dcm(t), pattern.planned_dcm(switch)),
-            dynamics.feet[step.foot].position,
+            (terms.position, terms.rotation @ terms.velocity[:3]),
+            self._nominal,
             self.step_limits,
         )
         if plan is not None:
@@ -162,9 +169,20 @@ class Walker:
         """
         reference = self.reference = self.pattern.at(t)
         dynamics, omega, k = self.body.dynamics, self.pattern.omega, self.gains.dcm
+        com, velocity = dynamics.com[:2], dynamics.com_velocity[:2]
         error = reference.com - dynamics.com
         rate = reference.velocity - dynamics.com_velocity
-        acceleration = reference.acceleration + (omega + k) * rate + omega * k * error
+        # The feedback's ZMP: what it asks for beyond the soles' reach they cannot give.
+        cart = reference.com[:2] - reference.acceleration[:2] / omega**2
+        away = (com + velocity / omega) - (reference.com + reference.velocity / omega)[:2]
+        zmp = cart + (1.0 + k / omega) * away
+        shift = reference.zmp - cart
+        soles = [self.body.dynamics.feet[f] for f in FEET if self.feet[f].contact]
+        poses = [_pose(terms) for terms in soles]
+        if poses:
+            zmp = nearest_inside(support_polygon(poses, self.sole), zmp + shift) - shift
+        acceleration = np.zeros(3)
+        acceleration[:2] = omega**2 * (com - zmp)
         h = self.gains.height
         acceleration[2] = reference.acceleration[2] + 2.0 * h * rate[2] + h * h * error[2]
         self.body.com.acceleration = acceleration
@@ -216,9 +234,15 @@ def _step_limits(robot: Robot, omega: float) -> StepLimits:
         omega,
         (0.8 * half.half_length, 0.8 * half.half_width),
         (1.1 * pendulum, 3.5 * pendulum),
-        1.9 * float(np.sqrt(leg)),
+        2.8 * float(np.sqrt(leg)),
         TOLERANCE * leg,
     )
+
+
+def _pose(terms: FrameTerms) -> Array:
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = terms.rotation, terms.position
+    return pose
 
 
 def _yaw(rotation: Array) -> float:
