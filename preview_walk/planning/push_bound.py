@@ -136,21 +136,21 @@ def _angle(direction: Direction | float) -> float:
 def _plan(case: PushCase, best: TimedCapture, mirror: float) -> SurvivalPlan:
     """Return the plan that a capture stands for, in the frame of the module."""
     gait, share, capture = case.gait, case.share, best.capture
-    count = len(best.singles)
-    swings = np.array(best.singles)
-    lands = (
-        (best.delay if count else 0.0) + np.cumsum(swings) + gait.double_support * np.arange(count)
-    )
-    strides, weights = capture.strides[len(capture.strides) - count :], capture.shares[-count:]
+    count, swings = len(best.singles), np.array(best.singles)
+    first_lift = best.delay if count else 0.0
+    lands = first_lift + np.cumsum(swings) + gait.double_support * np.arange(count)
+    strides = capture.strides[len(capture.strides) - count :]
     soles = np.vstack([gait.swing_foot(share), np.zeros(2), np.cumsum(strides, axis=0)])
-    # Where the CoP of a double support is between the soles: 0 at the one behind, 1 at the other.
-    least = exp(-gait.omega * gait.double_support)
-    along = [0.0 if share is not None else float(capture.shares[0])]
-    cops = [soles[1] + along[0] * (soles[0] - soles[1])]
+    # Where the CoP of each double support is between the soles: 0 at the one behind, 1 at the
+    # other. The last one is endless; where there is no double support there is no choice.
+    least = np.full(count, exp(-gait.omega * gait.double_support))
+    least[-1:] = 0.0
+    shares = capture.shares[len(capture.shares) - count :]
+    along = np.divide(shares - least, 1.0 - least, out=np.ones(count), where=least < 1.0)
+    waiting = float(capture.shares[0]) if share is None else 0.0
+    cops = [soles[1] + waiting * (soles[0] - soles[1])]
     for k in range(count):
-        low = least if k < count - 1 else 0.0
-        share_of = 1.0 if low == 1.0 else (weights[k] - low) / (1.0 - low)
-        cops += [soles[k + 1], soles[k + 1] + share_of * strides[k]]
+        cops += [soles[k + 1], soles[k + 1] + along[k] * strides[k]]
     origin = np.array([0.0, 0.5 * soles[0, 1]]) if share is None else np.zeros(2)
     flip = np.array([1.0, mirror])
     return SurvivalPlan(

@@ -135,8 +135,10 @@ class PushCase:
         ways.append(hypot(max(ways), gait.max_width - gait.min_width))
         lasting = np.clip([0.0, *(_DETOUR / gait.swing_speed * np.array(ways))], low[1], high[1])
         tails = [(), *((single,) for single in sorted(set(lasting.tolist())))]
-        for delay in self._delays():
-            for first in np.linspace(low[0], high[0], 25).tolist():
+        delays = self._delays()
+        firsts = np.linspace(low[0], high[0], 25 if len(delays) == 1 else 13).tolist()
+        for delay in delays:
+            for first in firsts:
                 for tail in tails:
                     yield self.at(delay, (first, *tail), refine=False)
 
