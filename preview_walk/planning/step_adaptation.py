@@ -37,9 +37,10 @@ ZMP, and of the offset that the ZMP of the next step can carry: the rest of the 
 CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
 
-SWING_SHARE, COAST_SHARE = 0.53, 0.2
-"""A quintic from rest to rest covers 8/15 of its top speed times its time; a foot under way gets
-further by this share of its speed times the time left."""
+SWING_SHARE, ACCELERATION_SHARE, COAST_SHARE = 0.53, 0.173, 0.2
+"""A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its top
+acceleration times that squared; a foot under way gets further by a share of its speed times the
+time left."""
 
 SHORT_PAUSE = 0.06
 """Double support (s) after a changed step: the next one cannot wait."""
@@ -61,6 +62,7 @@ class StepLimits:
         zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
         swing_time: shortest and longest time in the air (s).
         swing_speed: top speed (m/s) of the swing foot.
+        swing_pull: top acceleration (m/s^2) of the swing foot.
         tolerance: error of the DCM (m) at landing that needs no answer.
     """
 
@@ -69,6 +71,7 @@ class StepLimits:
     zmp: tuple[float, float]
     swing_time: tuple[float, float]
     swing_speed: float
+    swing_pull: float
     tolerance: float
 
 
@@ -146,7 +149,9 @@ def _best(
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
     left = (land - t)[:, None]
-    span = SWING_SHARE * limits.swing_speed * left
+    span = np.minimum(
+        SWING_SHARE * limits.swing_speed * left, ACCELERATION_SHARE * limits.swing_pull * left**2
+    )
     now = now + COAST_SHARE * speed * left
     reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])

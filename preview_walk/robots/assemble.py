@@ -71,7 +71,7 @@ def floor(spec: mujoco.MjSpec) -> None:
     )
     material = spec.add_material(name="floor", texrepeat=(2, 2), texuniform=True)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
-    spec.worldbody.add_geom(
+    plane = spec.worldbody.add_geom(
         name="floor",
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=(0, 0, 0.05),
@@ -79,8 +79,9 @@ def floor(spec: mujoco.MjSpec) -> None:
         contype=2,
         conaffinity=1,
         condim=3,
-        castshadow=False,
     )
+    if hasattr(plane, "castshadow"):  # MuJoCo 3, all there is for Python 3.10, has no such switch
+        plane.castshadow = False
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,

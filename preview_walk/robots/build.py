@@ -56,12 +56,10 @@ def build_robot(description: Description, source: Source) -> Robot:
     check_agreement(mj, model, {foot: (sole_name(foot), frames[foot].frame) for foot in FEET})
     low, high = _limits(mj)
     set_limits(model, low, high)
-    named: Mapping[str, float] = description.posture
-    if not named:
-        angles, key = keyframe_angles(tree)
-        named = {name: angle for name, angle in angles.items() if model.existJointName(name)}
-        settled += [f"arms and trunk as in the keyframe '{key}'"] if key else []
-    posture, legs = _posture(named, parts, tree, mj, model, frames)
+    seen_at, key = ({}, "") if description.posture else keyframe_angles(tree)
+    settled += [f"arms and trunk as in the keyframe '{key}'"] if key else []
+    resting_at = (seen_at, description.posture)
+    posture, legs = _posture(resting_at, parts, tree, mj, model, frames)
     freed = _free_limits(mj, model, posture)
     low, high = _limits(mj)
     data = model.createData()
@@ -154,7 +152,7 @@ def set_limits(model: pin.Model, low: Array, high: Array) -> None:
 
 
 def _posture(
-    named: Mapping[str, float],
+    resting_at: tuple[Mapping[str, float], Mapping[str, float]],
     parts: Structure,
     tree: Tree,
     mj: mujoco.MjModel,
@@ -181,7 +179,7 @@ def _posture(
     pin.framesForwardKinematics(model, data, q)
     apart = data.oMf[soles["left"].frame].translation - data.oMf[soles["right"].frame].translation
     width = max(float(apart[1]), soles["left"].half_width + soles["right"].half_width + CLEARANCE)
-    q = resting(model, q, named)
+    q = resting(model, q, *resting_at)
     posture = walking_posture(model, q, {f: soles[f].frame for f in FEET}, legs, width)
     return posture, legs
 

@@ -18,9 +18,6 @@ from preview_walk.robots.robot import Robot
 from preview_walk.robots.shapes import add_bones, add_shapes
 from preview_walk.robots.source import read_source
 
-IN_HAND = Description("robot", "MuJoCo model in hand", "MjModel")
-"""What is known beforehand of a model that was not loaded from a file."""
-
 
 def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     """Return a robot by its catalogue name, its .urdf, .xml or .json file, or a MuJoCo model.
@@ -29,15 +26,22 @@ def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     """
     if isinstance(model, mujoco.MjSpec):
         model, notes = compile_spec(model.copy(), "the spec")
-        return build_robot(IN_HAND, replace(read_source(model), notes=notes))
+        return build_robot(_in_hand(model), replace(read_source(model), notes=notes))
     if isinstance(model, mujoco.MjModel):
-        return build_robot(IN_HAND, read_source(model))
+        return build_robot(_in_hand(model), read_source(model))
     if not isinstance(model, (str, Path)):
         raise RobotError(
             f"expected a robot's name, a path, an MjModel or an MjSpec, got {type(model).__name__}"
         )
     description = describe(model)
     return build_robot(description, read_source(description))
+
+
+def _in_hand(model: mujoco.MjModel) -> Description:
+    """Return what is known beforehand of a model that was not loaded from a file: its name."""
+    name = bytes(model.names).split(b"\0", 1)[0].decode()
+    name = "robot" if name in ("", "MuJoCo Model") else name
+    return Description(name, name, "MjModel")
 
 
 def visual_model(robot: Robot) -> mujoco.MjModel:

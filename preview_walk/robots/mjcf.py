@@ -81,6 +81,7 @@ def settle(
     own = set(tree.below(base))
     _refuse_joints(tree, own)
     locked: dict[int, str] = {}
+    notes: list[str] = []
     names = {tree.joint_name(j): j for j in range(mj.njnt)}
     for name, leader in mimics.items():
         locked[names[name]] = leader
@@ -99,6 +100,9 @@ def settle(
                     f"between the bodies '{tree.name(ends[0])}' and '{tree.name(ends[1])}'; "
                     "only open chains of joints are allowed"
                 )
+            if own.intersection(ends):
+                name = _equality_name(mj, equality)
+                notes.append(f"the constraint '{name}' to the scene is left out")
     for joint, leader in locked.items():
         if joint in leg_joints:
             raise RobotError(
@@ -108,7 +112,6 @@ def settle(
     for actuator in range(mj.nu):
         if int(mj.actuator_trntype[actuator]) == _TENDON:
             _refuse_leg_tendon(tree, int(mj.actuator_trnid[actuator, 0]), leg_joints)
-    notes = []
     if locked:
         notes.append(
             "locked, because another joint drives them: "
@@ -116,7 +119,15 @@ def settle(
         )
     if mj.ntendon:
         notes.append(f"{mj.ntendon} tendon(s) left out")
-    strangers = [tree.name(b) for b in range(1, mj.nbody) if b not in own and mj.body_jntnum[b]]
+    carried = tree.joints_on(tree.path(base))
+    if carried:
+        names_ = ", ".join(tree.joint_name(joint) for joint in carried)
+        notes.append(f"joints between world and base became a free joint: {names_}")
+    strangers = [
+        tree.name(b)
+        for b in range(1, mj.nbody)
+        if b not in own | set(tree.path(base)) and mj.body_jntnum[b]
+    ]
     if strangers:
         notes.append(f"not part of the robot, left out: {', '.join(strangers)}")
     return set(locked), notes

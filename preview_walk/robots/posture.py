@@ -92,22 +92,35 @@ def knees_forward(model: pin.Model, legs: Mapping[Foot, Leg]) -> float:
     return 1.0 if room >= 0.0 else -1.0
 
 
-def resting(model: pin.Model, q: Array, named: Mapping[str, float]) -> Array:
-    """Return a configuration (nq,) with the named joints at their angles, the rest inside limits.
+def resting(
+    model: pin.Model, q: Array, seen: Mapping[str, float], named: Mapping[str, float]
+) -> Array:
+    """Return a configuration (nq,): `named` joints at their angles, the rest inside their limits.
 
-    Raises `RobotError` for an unknown joint name.
+    The rest is as `seen` in a keyframe, else as in `q` (nq,).
+
+    Raises `RobotError` for an unknown joint name or an angle outside the joint's limits.
     """
     q = np.array(q)
-    low, high = model.lowerPositionLimit[7:], model.upperPositionLimit[7:]
+    index = {str(model.names[j]): model.joints[j].idx_q for j in range(2, model.njoints)}
+    for name in seen.keys() & index.keys():
+        q[index[name]] = seen[name]
+    low, high = model.lowerPositionLimit, model.upperPositionLimit
     margin = np.minimum(MARGIN, 0.1 * np.where(np.isfinite(high - low), high - low, np.inf))
-    q[7:] = np.clip(q[7:], low + margin, high - margin)
+    q[7:] = np.clip(q, low + margin, high - margin)[7:]
     for name, angle in named.items():
-        if not model.existJointName(name):
+        if name not in index:
             raise RobotError(
                 f"the posture names the joint '{name}', which the model lacks; "
-                f"it has {', '.join(model.names[2:])}"
+                f"it has {', '.join(index)}"
             )
-        q[model.joints[model.getJointId(name)].idx_q] = angle
+        at = index[name]
+        if not low[at] <= angle <= high[at]:
+            raise RobotError(
+                f"the posture puts the joint '{name}' at {angle:g}; "
+                f"its limits are {low[at]:g} and {high[at]:g}"
+            )
+        q[at] = angle
     return q
 
 

@@ -106,21 +106,19 @@ def _at(tree: Tree, joint: int) -> Array:
 def _find_pair(tree: Tree) -> tuple[int, int]:
     """Return the tips of the two limbs that reach furthest in one direction, preferably down."""
     reach: dict[tuple[tuple[int, int], int], float] = {}
-    down = np.array((0.0, 0.0, -1.0))
+    places = {tip: tree.position(tip) for tip in tree.tips}
     for pair in combinations(tree.tips, 2):
         trunk = tree.common(list(pair))
         counts = [len(tree.joints_on(tree.path(tip)[len(tree.path(trunk)) :])) for tip in pair]
-        if trunk and min(counts) >= LEG_JOINTS and abs(counts[0] - counts[1]) <= 1:
-            axes = (
-                sign * axis for axis in tree.rotation(tree.path(trunk)[0]).T for sign in (1, -1)
-            )
-            for number, axis in enumerate((down, *axes)):
-                ahead = [(tree.position(tip) - tree.position(trunk)) @ axis for tip in pair]
-                lowest = max(
-                    float((tree.position(t) - tree.position(trunk)) @ axis) for t in tree.tips
-                )
-                if min(ahead) > 0.5 * lowest:  # no third limb reaches much further
-                    reach[pair, number] = float(min(ahead))
+        if not trunk or min(counts) < LEG_JOINTS or abs(counts[0] - counts[1]) > 1:
+            continue
+        turn = tree.rotation(tree.path(trunk)[0])
+        axes = np.column_stack(((0.0, 0.0, -1.0), turn, -turn))  # down first
+        start = tree.position(trunk)
+        furthest = ((np.array(list(places.values())) - start) @ axes).max(axis=0)
+        ahead = ((np.array([places[tip] for tip in pair]) - start) @ axes).min(axis=0)
+        for axis in np.flatnonzero(ahead > 0.5 * furthest):  # no third limb reaches much further
+            reach[pair, int(axis)] = float(ahead[axis])
     if not reach and tree.tips and tree.common(tree.tips) == 0:
         raise RobotError(
             "the limbs hang on the world: the robot has no base body (MuJoCo fuses a URDF's root "
@@ -141,14 +139,16 @@ def _find_pair(tree: Tree) -> tuple[int, int]:
 
 
 def _base(tree: Tree, pelvis: int) -> int:
-    """Return the body that floats: with a free joint, else the first that weighs or branches."""
+    """Return the body that floats: with a free joint, else the first that weighs something."""
     path = tree.path(pelvis)
     for body in path:
         first = int(tree.mj.body_jntadr[body])
         if tree.mj.body_jntnum[body] and int(tree.mj.jnt_type[first]) == 0:
             return body
+    # Frames and chains of slides that carry a robot through its world weigh next to nothing.
+    light = 1e-3 * float(tree.mj.body_subtreemass[path[0]])
     for body in path:
-        if tree.mj.body_mass[body] > 0.0 or tree.mj.body_jntnum[body]:
+        if tree.mj.body_mass[body] > light:
             return body
     return pelvis
 

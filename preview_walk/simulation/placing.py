@@ -55,7 +55,9 @@ def standing_configuration(robot: Robot, plan: FootstepPlan) -> Array:
         errors.append(pin.log3(upright.T @ data.oMi[1].rotation))
         rows.append(pin.getJointJacobian(model, data, 1, pin.ReferenceFrame.LOCAL)[3:])
         step = np.zeros(model.nv)
-        step[free] = np.linalg.lstsq(np.vstack(rows)[:, free], -np.concatenate(errors), rcond=1e-8)[0]
+        step[free] = np.linalg.lstsq(np.vstack(rows)[:, free], -np.concatenate(errors), rcond=1e-8)[
+            0
+        ]
         q = pin.integrate(model, q, step * min(1.0, 0.3 / np.abs(step).max()))
     apart = float(np.linalg.norm(plan[0].pos - plan[1].pos))
     raise InvalidInput(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import cos, isfinite, pi, sin
 
 import mujoco
 import numpy as np
@@ -43,6 +43,42 @@ class Push:
                 continue
             if len(vector) != 3 or not all(isfinite(x) for x in vector):
                 raise InvalidInput(f"the {name} of a push must be three finite numbers.")
+
+
+def random_pushes(
+    every: float, impulse: float, duration: float, until: float, seed: int
+) -> tuple[Push, ...]:
+    """Return pushes on the trunk at regular times, horizontal, in uniformly random directions.
+
+    Args:
+        every: a push begins at each multiple of this time (s), not at 0.
+        impulse: of each push (N·s).
+        duration: of each push (s), at most `every`.
+        until: all pushes begin before this time (s).
+        seed: the same seed gives the same pushes.
+
+    Raises:
+        InvalidInput: a number that is not finite and > 0, or pushes longer than `every`.
+    """
+    for name, value in (("every", every), ("impulse", impulse), ("duration", duration)):
+        if not (isfinite(value) and value > 0.0):
+            raise InvalidInput(f"{name} must be finite and > 0, got {value}.")
+    if not isfinite(until):
+        raise InvalidInput(f"until must be finite (s), got {until}.")
+    if duration > every:
+        raise InvalidInput(
+            f"every must be at least the duration of a push, {duration} s, got {every} s."
+        )
+    random = np.random.default_rng(seed)
+    force = impulse / duration
+    pushes = []
+    number = 1
+    while number * every < until:
+        angle = 2.0 * pi * random.random()
+        along = (force * cos(angle), force * sin(angle), 0.0)
+        pushes.append(Push(number * every, duration, along))
+        number += 1
+    return tuple(pushes)
 
 
 class Pusher:

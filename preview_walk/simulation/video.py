@@ -5,16 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from preview_walk.errors import PreviewWalkError
+from preview_walk.offscreen import RenderError, off_screen
+from preview_walk.planning.pose import midfeet
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco
 from preview_walk.simulation.record import Record
+from preview_walk.types import Array
 
 FPS = 30
 """Frames per second of a video; it runs in real time."""
@@ -22,11 +25,10 @@ FPS = 30
 SIZE = (720, 1280)
 """Height and width of a frame (pixels)."""
 
+SWAY = 1.0
+"""The camera follows the mean of the CoM over this time (s) before and after: it does not sway."""
+
 Frame = NDArray[np.uint8]
-
-
-class VideoError(PreviewWalkError, RuntimeError):
-    """A picture could not be rendered or written; says why."""
 
 
 def frames(
@@ -36,40 +38,44 @@ def frames(
 
     The recorded configurations are shown, nothing is simulated again. The camera walks along.
 
-    Raises `VideoError` where there is no OpenGL to render with.
+    Raises `RenderError` where there is no OpenGL to render with.
     """
-    # Off screen MuJoCo needs EGL; it reads this when its renderer is first made.
-    if not os.environ.get("DISPLAY"):
-        os.environ.setdefault("MUJOCO_GL", "egl")
     model = visual_model(robot)
     model.vis.global_.offheight, model.vis.global_.offwidth = size
     data = mujoco.MjData(model)
-    try:
-        renderer = mujoco.Renderer(model, *size)
-    except Exception as error:
-        raise VideoError(f"no OpenGL to render with off screen (EGL): {error}") from error
     camera = mujoco.MjvCamera()
     camera.distance = 3.2 * robot.com_height
     camera.elevation = -12.0
-    q0 = record.q[0]
-    heading = np.degrees(np.arctan2(2 * (q0[6] * q0[5] + q0[3] * q0[4]), 1 - 2 * (q0[4] ** 2 + q0[5] ** 2)))
-    camera.azimuth = heading + 125.0
+    heading = midfeet(record.left_foot_ref[0], record.right_foot_ref[0])[2]
+    camera.azimuth = np.degrees(heading) + 125.0
+    way = _smooth(record.com, round(SWAY / record.dt))
     still = np.zeros(model.nv)
+    with off_screen():
+        renderer = mujoco.Renderer(model, *size)
     with renderer:
         for time in times:
             tick = min(int(np.searchsorted(record.time, time)), len(record) - 1)
             to_mujoco(record.q[tick], still, data.qpos, data.qvel)
             mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
             mujoco.mj_camlight(model, data)
-            camera.lookat[:] = (*record.com[tick, :2], 0.95 * robot.com_height)
+            camera.lookat[:] = way[tick]
             renderer.update_scene(data, camera)
             yield renderer.render()
+
+
+def _smooth(path: Array, ticks: int) -> Array:
+    """Return a path (N, 3) averaged over so many ticks before and after each."""
+    padded = np.pad(path, ((ticks + 1, ticks), (0, 0)), mode="edge")
+    total = padded.cumsum(axis=0)
+    average: Array = (total[2 * ticks + 1 :] - total[: -2 * ticks - 1]) / (2 * ticks + 1)
+    return average
 
 
 def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> Path:
     """Write an mp4 of a recorded walk in real time and return its path.
 
-    Raises `VideoError` where it cannot be rendered or encoded.
+    Raises `RenderError` where it cannot be rendered or encoded.
     """
     import imageio.v2 as imageio
 
@@ -77,11 +83,12 @@ def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> 
     count = max(1, int((record.time[-1] - record.time[0]) * FPS))
     times = record.time[0] + np.arange(count) / FPS
     try:
-        with imageio.get_writer(
+        writer: Any = imageio.get_writer(
             target, format="FFMPEG", fps=FPS, codec="libx264", quality=8, macro_block_size=8
-        ) as writer:
+        )
+        with writer:
             for frame in frames(record, robot, times.tolist()):
                 writer.append_data(frame)
     except (OSError, ValueError, ImportError) as error:
-        raise VideoError(f"cannot write the video {target}: {error}") from error
+        raise RenderError(f"cannot write the video {target}: {error}") from error
     return target

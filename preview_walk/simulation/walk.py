@@ -9,23 +9,23 @@ from typing import Any
 import numpy as np
 
 from preview_walk.errors import InvalidInput, PreviewWalkError
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.check import require_walkable
 from preview_walk.planning.footstep_planner import FootstepPlanner
+from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.support import Sole
-from preview_walk.planning.velocity import follow_velocity
-from preview_walk.robots.contact_sensor import zmp
+from preview_walk.planning.velocity import follow_velocity, saturated
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.placing import standing_configuration
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.record import Record
-from preview_walk.simulation.recorder import Recorder, package_versions
+from preview_walk.simulation.recorder import Recorder
+from preview_walk.simulation.row import run_settings, tick_row
 from preview_walk.simulation.world import World, steps_per_tick
-from preview_walk.tracking.dynamics import FrameTerms
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.walker import CONTACT_FORCE, Walker
-from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
+from preview_walk.tracking.walker import Walker
+from preview_walk.types import FEET
 
 FRICTION = 0.8
 """Default Coulomb friction between sole and floor: rubber on dry floor."""
@@ -41,6 +41,9 @@ FALL_TILT = 0.9
 
 FORGET = 3.0
 """A walk by command forgets footsteps older than this (s): an endless walk keeps a short plan."""
+
+Command = tuple[float, float, float]
+"""Velocity commanded: vx, vy (m/s), yaw rate (rad/s), in the frame of the walking robot."""
 
 Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
@@ -62,6 +65,8 @@ class Walk:
 
     Raises:
         InvalidInput: a rate or friction that cannot be, or a plan on which the robot cannot stand.
+
+    `limits`: what steps the robot's legs can make.
     """
 
     def __init__(
@@ -94,41 +99,28 @@ class Walk:
         )
         self._command = (0.0, 0.0, 0.0)
         self._obey_at = np.inf
+        self._schedule: list[tuple[float, Command]] = []
         self._tick = 0
         self._start = plan.start
         self._wall = 0.0
         self._fall: tuple[float, str] | None = None
         self._interrupted = False
         self._recorder = Recorder(
-            {
-                "robot": robot.name,
-                "title": robot.title,
-                "mass": robot.mass,
-                "gravity": 9.81,
-                "joint_names": list(robot.joint_names),
-                "tau_max": robot.effort.tolist(),
-                "control_hz": control_hz,
-                "physics_hz": physics_hz,
-                "com_height": robot.com_height,
-                "leg_length": robot.leg_length,
-                "step_width": robot.step_width,
-                "sole": [robot.soles["left"].half_length, robot.soles["left"].half_width],
-                "friction": friction,
-                "seed": seed,
-                "solver": solver,
-                "pushes": [
-                    {"t": p.t, "duration": p.duration, "force": list(p.force), "body": p.body}
-                    for p in pushes
-                ],
-                "versions": package_versions(),
-            },
+            run_settings(
+                robot,
+                pushes,
+                self.world,
+                control_hz=control_hz,
+                physics_hz=physics_hz,
+                friction=friction,
+                seed=seed,
+                solver=solver,
+            ),
             {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
         )
 
     @classmethod
-    def standing(
-        cls, robot: Robot, start: Sequence[float] = (0.0, 0.0), **settings: Any
-    ) -> Walk:
+    def standing(cls, robot: Robot, start: Sequence[float] = (0.0, 0.0), **settings: Any) -> Walk:
         """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
 
         `settings` are the keyword arguments of `Walk`.
@@ -158,8 +150,13 @@ class Walk:
     @property
     def finished(self) -> bool:
         """Whether the plan is walked and the robot has stood for a while after it, or it fell."""
-        over = self.time >= self.plan.end + STAND_AFTER - 1e-9
-        return self.fallen or self._interrupted or over
+        return self.fallen or self._interrupted or self.time >= self._end - 1e-9
+
+    @property
+    def _end(self) -> float:
+        """Time (s) at which a run ends of its own, as far as is known now."""
+        scheduled = self._schedule[-1][0] if self._schedule else -np.inf
+        return max(self.plan.end, scheduled) + STAND_AFTER
 
     def command(self, vx: float, vy: float, wz: float) -> None:
         """Walk at this velocity from now on, until another command; zeros stop the walk.
@@ -173,6 +170,24 @@ class Walk:
         """
         self._command = (vx, vy, wz)
         self._obey()
+
+    def schedule(self, commands: Sequence[tuple[Command, float]]) -> None:
+        """Give these commands one after the other from now on, each for its duration; then stop.
+
+        Args:
+            commands: pairs of a command (vx, vy, wz), as for `command`, and its duration (s).
+
+        Raises:
+            InvalidInput: a number is not finite, or a duration is not > 0.
+        """
+        t, times = self.time, []
+        for command, duration in commands:
+            if not (np.isfinite(duration) and duration > 0.0):
+                raise InvalidInput(f"duration must be finite and > 0 s, got {duration}.")
+            saturated(command, self.limits)
+            times.append((t, command))
+            t += duration
+        self._schedule = [*times, (t, (0.0, 0.0, 0.0))]
 
     def _obey(self) -> None:
         """Plan on along the command in force; again at every lift, so that the plan never ends."""
@@ -191,7 +206,7 @@ class Walk:
         """
         try:
             while not self.fallen:
-                end = self.plan.end + STAND_AFTER if until is None else until
+                end = self._end if until is None else until
                 if self.time >= end - 1e-9:
                     break
                 self.tick()
@@ -205,6 +220,8 @@ class Walk:
         """Do one control tick: sense, compute torques, record, step the physics."""
         start = perf_counter()
         t, world, walker = self.time, self.world, self.walker
+        while self._schedule and t >= self._schedule[0][0] - 1e-9:
+            self.command(*self._schedule.pop(0)[1])
         if t >= self._obey_at:
             self._obey()
         world.sense()
@@ -217,7 +234,8 @@ class Walk:
             self._fall = (t, str(stop))
             return
         spent = perf_counter() - before
-        self._record(t, torques, spent)
+        self._recorder.plan(t, walker.plan)
+        self._recorder.write(**tick_row(t, world, walker, torques, spent))
         self._check_fall(t)
         world.step(torques, self._substeps)
         self._tick += 1
@@ -237,7 +255,8 @@ class Walk:
 
     def _check_fall(self, t: float) -> None:
         dynamics = self.walker.body.dynamics
-        ground = max(dynamics.feet[foot].position[2] for foot in FEET)
+        # The lower foot is on the ground; the other one may be flung up by a recovery step.
+        ground = min(dynamics.feet[foot].position[2] for foot in FEET)
         height = float(dynamics.com[2] - ground)
         tilt = float(np.arccos(np.clip(dynamics.torso.rotation[2, 2], -1.0, 1.0)))
         if height < FALL_HEIGHT * self.robot.com_height:
@@ -246,90 +265,59 @@ class Walk:
         elif tilt > FALL_TILT:
             self._fall = (t, f"the torso leaned {np.degrees(tilt):.0f} degrees")
 
-    def _record(self, t: float, torques: Array, spent: float) -> None:
-        walker, world = self.walker, self.world
-        body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
-        assert reference is not None and body.solution is not None
-        left, right = dynamics.feet["left"], dynamics.feet["right"]
-        threshold = CONTACT_FORCE * walker.weight
-        on = [world.wrench[foot][2] > threshold for foot in FEET]
-        phase = (
-            (DOUBLE_SUPPORT if on[1] else LEFT_SUPPORT)
-            if on[0]
-            else (RIGHT_SUPPORT if on[1] else -1)
-        )
-        tilt = np.arccos(min(1.0, max(-1.0, float(dynamics.torso.rotation[2, 2]))))
-        self._recorder.plan(t, walker.plan)
-        self._recorder.write(
-            time=t,
-            q=world.q,
-            v=world.v,
-            tau=torques,
-            com=dynamics.com,
-            com_ref=reference.com,
-            com_velocity=dynamics.com_velocity,
-            com_velocity_ref=reference.velocity,
-            com_acceleration_ref=reference.acceleration,
-            dcm=dynamics.com[:2] + dynamics.com_velocity[:2] / walker.pattern.omega,
-            dcm_ref=reference.dcm,
-            zmp=zmp(
-                (world.wrench["left"], world.wrench["right"]),
-                (left.position, right.position),
-                reference.ground,
-            ),
-            zmp_ref=reference.zmp_ref,
-            zmp_preview=reference.zmp,
-            left_foot=_pose(left),
-            right_foot=_pose(right),
-            left_foot_ref=walker.feet["left"].pose,
-            right_foot_ref=walker.feet["right"].pose,
-            left_force=world.wrench["left"],
-            right_force=world.wrench["right"],
-            push=world.push,
-            torso_tilt=tilt,
-            phase=phase,
-            phase_ref=walker.plan.support(t),
-            qp_iterations=body.solution.iterations,
-            qp_status=0 if body.solution.solved else 1,
-            tick_time=spent,
-            terms_time=body.times.terms,
-            assembly_time=body.times.assembly,
-            qp_time=body.times.solve,
-        )
-
 
 def simulate(
     robot: Robot,
     plan: FootstepPlan,
     *,
-    physics_hz: int = 1000,
-    control_hz: int = 500,
-    friction: float = FRICTION,
-    pushes: Sequence[Push] = (),
-    seed: int = 0,
-    gains: TrackingGains | None = None,
-    solver: str = "osqp",
     progress: Progress | None = None,
     viewer: bool = False,
+    **settings: Any,
 ) -> Record:
     """Walk a robot along a plan in MuJoCo and return the record.
 
     The robot starts standing on the plan's stance soles and stands for `STAND_AFTER` after its
-    end. A fall or Ctrl-C ends the run early; the record says so. `viewer` opens MuJoCo's live
-    viewer and runs in real time; for the other arguments see `Walk`.
+    end. A fall or Ctrl-C ends the run early; the record says so.
+
+    Args:
+        robot: from `load_robot`.
+        plan: the footsteps.
+        progress: called now and then.
+        viewer: open MuJoCo's live viewer and run in real time.
+        settings: the keyword arguments of `Walk`.
+
+    Raises:
+        InvalidInput: the plan has a step that the robot cannot make, or see `Walk`.
     """
-    walk = Walk(
-        robot,
-        plan,
-        physics_hz=physics_hz,
-        control_hz=control_hz,
-        friction=friction,
-        pushes=pushes,
-        seed=seed,
-        gains=gains,
-        solver=solver,
-        visuals=viewer,
-    )
+    walk = Walk(robot, plan, visuals=viewer, **settings)
+    require_walkable(plan, walk.limits)
+    return _recorded(walk, progress, viewer)
+
+
+def simulate_commands(
+    robot: Robot,
+    commands: Sequence[tuple[Command, float]],
+    *,
+    start: Sequence[float] = (0.0, 0.0),
+    progress: Progress | None = None,
+    viewer: bool = False,
+    **settings: Any,
+) -> Record:
+    """Walk a robot by velocity commands, each for its duration, then to a stop; return the record.
+
+    `commands` are pairs ((vx, vy, wz), duration) in m/s, m/s, rad/s and s; `start` is (x, y[, yaw])
+    in m and rad. For the other arguments see `simulate`.
+
+    Raises:
+        InvalidInput: a command cannot be, or see `Walk`.
+    """
+    walk = Walk.standing(robot, start, visuals=viewer, **settings)
+    walk.schedule(commands)
+    return _recorded(walk, progress, viewer)
+
+
+def _recorded(walk: Walk, progress: Progress | None, viewer: bool) -> Record:
+    """Run a walk to its end and return its record."""
     if viewer:
         from preview_walk.simulation.viewer import run_in_viewer
 
@@ -337,11 +325,3 @@ def simulate(
     else:
         walk.run(progress=progress)
     return walk.record()
-
-
-def _pose(terms: FrameTerms) -> Array:
-    """Return the homogeneous pose (4, 4) of a frame."""
-    pose = np.eye(4)
-    pose[:3, :3] = terms.rotation
-    pose[:3, 3] = terms.position
-    return pose

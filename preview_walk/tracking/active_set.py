@@ -15,7 +15,7 @@ from scipy.linalg.lapack import dposv
 
 from preview_walk.types import Array
 
-MAX_STEPS = 100
+MAX_STEPS = 300
 """Steps after which the method gives up; it needs few more than there are active constraints."""
 
 _TOLERANCE = 1e-10

@@ -44,13 +44,14 @@ TIGHT: Mapping[str, Mapping[str, Any]] = {
 class Solution:
     """What a backend returned for a tick.
 
-    `acceleration` (nv,) and `wrench` (nf,), in SI units; whether it `solved` the QP; its
-    `iterations` (0: no limit or edge of a contact was reached, so none were needed); in words, its
+    `acceleration` (nv,), `wrench` (nf,) and joint `torques` (n,), in SI units; whether it `solved`
+    the QP; its `iterations` (0: no limit or edge of a contact was reached, so none were needed); in words, its
     `status`.
     """
 
     acceleration: Array
     wrench: Array
+    torques: Array
     solved: bool
     iterations: int
     status: str = "solved"
@@ -111,7 +112,13 @@ class OsqpBackend:
             crossed = elimination.crossed()
             if not crossed:
                 self._forget()
-                return Solution(elimination.acceleration, w[: problem.nf], True, iterations)
+                return Solution(
+                    elimination.acceleration,
+                    w[: problem.nf],
+                    elimination.torques.copy(),
+                    True,
+                    iterations,
+                )
             self._watched.update(dict.fromkeys(crossed, 0))
         return _failed(problem, iterations, "joint limits still crossed")
 
@@ -167,10 +174,11 @@ class QpsolversBackend:
         if not result.found or result.x is None:
             return _failed(problem, 0, f"{self.name} found no solution")
         acceleration, wrench = problem.split(result.x)
-        return Solution(acceleration, wrench, True, int(result.extras.get("iter", 0)))
+        torques = problem.forces(acceleration, wrench)[6:]
+        return Solution(acceleration, wrench, torques, True, int(result.extras.get("iter", 0)))
 
 
 def _failed(problem: TickProblem, iterations: int, status: str) -> Solution:
-    return Solution(
-        np.full(problem.nv, np.nan), np.full(problem.nf, np.nan), False, iterations, status
-    )
+    nothing = np.full(problem.nv, np.nan)
+    wrench = np.full(problem.nf, np.nan)
+    return Solution(nothing, wrench, nothing[6:], False, iterations, status)

@@ -18,6 +18,9 @@ from preview_walk.types import Array
 COP_MARGIN = 0.1
 """Share of the sole's half size, at each edge, that the centre of pressure keeps clear of."""
 
+MIN_SHARE = 0.01
+"""Least share of the load given to a sole in contact, so that its wrench has a finite weight."""
+
 CONE_ROWS = 16
 """Rows of a wrench cone."""
 
@@ -65,3 +68,17 @@ def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Ar
         last = count * k + CONE_ROWS
         rows[last, 6 * k + 2], low[last], high[last] = 1.0, 0.0, np.inf
     return rows, low, high
+
+
+def load_shares(zmp: Array, first: Array, second: Array) -> tuple[float, float]:
+    """Return the shares of the load on soles at `first` and `second` (2,) for a ZMP (2,) wanted.
+
+    The lever rule: with these shares the ZMP lies where it is wanted without any moment under the
+    soles, and the load leaves a sole before it lifts and comes upon it after it has landed.
+    """
+    x, y = (second - first).tolist()
+    px, py = (zmp - first).tolist()
+    distance = x * x + y * y
+    share = (px * x + py * y) / distance if distance > 0.0 else 0.5
+    share = min(1.0 - MIN_SHARE, max(MIN_SHARE, share))
+    return 1.0 - share, share

@@ -39,16 +39,15 @@ class Elimination:
 
         minimise |factor^T w|^2 / 2 + gradient @ w  subject to  low <= constraints @ w <= high
 
-    `watched` numbers the limits as `TickProblem.low` does: torques first, then accelerations.
-    `factor` (lower triangular) and `gradient` are valid after `reduce`; `forces` (nv,) and
-    `acceleration` (nv,) after `expand`.
+    `watched` are columns of `TickProblem.limits`: torques first, then accelerations.
+    `factor` (lower triangular) and `gradient` are valid after `reduce`; `acceleration` (nv,) and
+    `torques` (n,) after `expand`.
     """
 
     def __init__(self, problem: TickProblem, watched: Sequence[int]) -> None:
         self.problem = problem
         self.watched = tuple(watched)
         p, k = problem, len(self.watched)
-        self._torque_rows = [i for i in self.watched if i < p.n]
         self._indices = np.array(self.watched, dtype=int)
         self.size = p.nf + k
         self._tail = 6 + k
@@ -67,7 +66,6 @@ class Elimination:
             if i >= p.n:
                 self._rows[p.m + at, 6 + i - p.n] = 1.0
                 self._slack[p.m + at] = 1.0 / LIMIT_WEIGHT
-        self._weights = np.concatenate([p.wrench_weight, np.zeros(k)])
         self.constraints = np.zeros((len(p.contact_rows) + k, self.size))
         self.constraints[: len(p.contact_rows), : p.nf] = p.contact_rows
         self.constraints[len(p.contact_rows) :, p.nf :] = np.eye(k)
@@ -76,8 +74,8 @@ class Elimination:
         self.factor: Array = np.zeros((self.size, self.size))
         self.gradient: Array = np.zeros(self.size)
         self.acceleration: Array = np.zeros(p.nv)
-        self.forces: Array = np.zeros(p.nv)
-        self._values = np.zeros(2 * p.n)
+        self._values: Array = np.zeros(2 * p.n)
+        self.torques = self._values[: p.n]
         self._excess = np.zeros((2, 2 * p.n))
 
     def reduce(self) -> None:
@@ -102,7 +100,7 @@ class Elimination:
         corner = self._lower[-self._tail :, -self._tail :]
         self._response = dtrtrs(corner, self._map, lower=1)[0] if self.size else self._map
         hessian = self._response.T @ self._response
-        hessian.reshape(-1)[:: self.size + 1] += self._weights
+        hessian.reshape(-1)[: p.nf * self.size : self.size + 1] += p.wrench_weight
         self.factor = _cholesky(hessian)
         self.gradient = self._solved[-self._tail :] @ self._response
         self.high[: len(p.contact_high)] = p.contact_high
@@ -119,8 +117,8 @@ class Elimination:
                 self._map[6 + i, : p.nf] = p.contact_jacobian[:, dof]
             else:
                 self._residual[at + i] = 0.0
-        self.low[len(p.contact_low) :] = p.low[self._indices]
-        self.high[len(p.contact_high) :] = p.high[self._indices]
+        at = len(p.contact_low)
+        self.low[at:], self.high[at:] = p.limits[:, self._indices]
 
     def free(self) -> Array | None:
         """Return the minimiser w without constraints, or None when it does not obey them."""
@@ -136,7 +134,7 @@ class Elimination:
         return None
 
     def expand(self, w: Array) -> None:
-        """Recover `acceleration` and `forces` of a solution w."""
+        """Recover `acceleration` and `torques` of a solution w."""
         p = self.problem
         solved = self._solved.copy()
         solved[-self._tail :] += self._response @ w
@@ -145,18 +143,16 @@ class Elimination:
         acceleration *= self._scale
         acceleration += p.prior
         self.acceleration = acceleration
-        self.forces = p.forces(acceleration, w[: p.nf])
+        self._values[: p.n] = p.forces(acceleration, w[: p.nf])[6:]
+        self._values[p.n :] = acceleration[6:]
 
     def crossed(self) -> list[int]:
         """Return the limits that the expanded solution crosses and that are not watched yet.
 
         Raises `NotSolvable` when the solution is not finite.
         """
-        p, values, excess = self.problem, self._values, self._excess
-        values[: p.n] = self.forces[6:]
-        values[p.n :] = self.acceleration[6:]
-        np.subtract(p.low, values, out=excess[0])
-        np.subtract(values, p.high, out=excess[1])
+        excess = np.subtract(self._values, self.problem.limits, out=self._excess)
+        np.negative(excess[0], out=excess[0])
         worst = excess.max()
         if worst <= TOLERANCE:
             return []

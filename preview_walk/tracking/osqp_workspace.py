@@ -17,7 +17,7 @@ from preview_walk.tracking.active_set import nearest_point
 from preview_walk.tracking.elimination import Elimination, inverse_factor
 from preview_walk.types import Array
 
-INFINITY = 1e30
+INFINITY = osqp.constant("OSQP_INFTY")
 """What OSQP takes for an infinite bound."""
 
 SETTINGS = {
@@ -35,8 +35,6 @@ SETTINGS = {
     "verbose": False,
 }
 
-_SOLVED = int(osqp.SolverStatus.OSQP_SOLVED)
-
 
 class OsqpWorkspace:
     """A persistent OSQP solver for one `Elimination`; only values change between solves.
@@ -48,8 +46,8 @@ class OsqpWorkspace:
         self.elimination = elimination
         self.iterations = 0
         rows, size = elimination.constraints.shape
-        self._low: Array = np.zeros(rows)
-        self._high: Array = np.zeros(rows)
+        self._low: Array = np.full(rows, -INFINITY)
+        self._high: Array = np.full(rows, INFINITY)
         # Transposed, and thus in the order in which OSQP keeps the entries of a full matrix.
         self._constraints: Array = np.zeros((size, rows))
         self._solver = osqp.OSQP()
@@ -62,34 +60,27 @@ class OsqpWorkspace:
             max_iter=max_iterations,
             **SETTINGS,
         )
-        # The compiled solver under OSQP's Python class: for so small a QP, half the time of a call.
-        self._compiled = self._solver._solver
 
     def solve(self, multipliers: Array) -> tuple[Array, Array] | None:
         """Return w and its multipliers (one per constraint), or None when not converged.
 
         `multipliers`: a guess to start from; the better, the faster.
         """
-        e, compiled = self.elimination, self._compiled
+        e, solver = self.elimination, self._solver
         inverse = inverse_factor(e.factor)
         constraints = np.matmul(inverse, e.constraints.T, out=self._constraints)
         scale = 1.0 / np.sqrt(np.einsum("ij,ij->j", constraints, constraints))
         constraints *= scale
         np.multiply(e.low, scale, out=self._low)
         np.multiply(e.high, scale, out=self._high)
-        np.maximum(self._low, -INFINITY, out=self._low)
-        np.minimum(self._high, INFINITY, out=self._high)
         gradient = inverse @ e.gradient
         guess = multipliers / scale
-        compiled.update_data_vec(q=gradient, l=self._low, u=self._high)
-        compiled.update_data_mat(P_x=None, P_i=None, A_x=constraints.reshape(-1), A_i=None)
-        compiled.warm_start(-gradient - constraints @ guess, guess)
-        compiled.solve()
-        info = compiled.info
-        self.iterations = int(info.iter)
-        solution = compiled.solution
-        x, y = solution.x, solution.y
-        if info.status_val != _SOLVED:
+        solver.update(q=gradient, l=self._low, u=self._high, Ax=constraints.reshape(-1))
+        solver.warm_start(-gradient - constraints @ guess, guess)
+        result = solver.solve(raise_error=False)
+        self.iterations = int(result.info.iter)
+        x, y = result.x, result.y
+        if result.info.status_val != osqp.SolverStatus.OSQP_SOLVED:
             # Nearly parallel constraints, as of a foot just landed, are beyond OSQP's patience.
             exact = nearest_point(gradient, constraints.T, self._low, self._high, y)
             if exact is None:

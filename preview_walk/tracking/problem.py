@@ -6,7 +6,7 @@ axes at its centre). With M a + h the inverse dynamics and J the contacts' Jacob
     minimise  sum of task weight |jacobian a - target|^2          tasks
               + CONTACT_WEIGHT |J a + drift + BRAKE velocity|^2   soles stay where they are
               + posture weight |a - posture acceleration|^2       what is left free
-              + wrench weight |f|^2                               shares the load between the feet
+              + wrench weight |f|^2 / share of the load           divides the load between the soles
               + LIMIT_WEIGHT |e|^2                                e: beyond the joints' limits
     subject to  first six rows of  M a + h = J^T f                Newton and Euler
                 |other rows of  M a + h - J^T f| <= effort        joint torques
@@ -32,16 +32,16 @@ from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
 
-CONTACT_WEIGHT = 1e5
-"""Weight of a contact's acceleration: a sole's error stays below 1e-3 m/s^2 (tasks weigh ~10)."""
+CONTACT_WEIGHT = 1e4
+"""Weight of a contact's acceleration: in walks soles err by 1e-4 m/s^2 (tasks weigh ~10)."""
 
-LIMIT_WEIGHT = 1e4
+LIMIT_WEIGHT = 1e3
 """Weight of the acceleration (rad/s^2) by which a joint misses what its limits ask."""
 
 BASE_WEIGHT = 1e-4
 """Weight of the base's accelerations, so that the cost is strictly convex in every direction."""
 
-BRAKE = 100.0
+BRAKE = 20.0
 """A contact's remaining velocity decays at this rate (1/s)."""
 
 LIMIT_RATE = 30.0
@@ -60,7 +60,8 @@ class TickProblem:
     - `prior` (nv,), `prior_weight` (nv,): the accelerations drawn to, the posture's.
     - `wrench_weight` (nf,) per N^2 or (N·m)^2.
     - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
-    - `low`, `high` (2 n,): limits of the joints' torques and of their accelerations.
+    - `limits` (2, 2 n): lowest and highest values of the joints' torques and, beside them, of
+      their accelerations.
     """
 
     def __init__(
@@ -99,22 +100,27 @@ class TickProblem:
         self.prior: Array = np.zeros(nv)
         self.prior_weight = np.concatenate([np.full(6, BASE_WEIGHT), posture.weight])
         self.unit = np.tile(WRENCH_UNIT, len(self.contacts))
-        self.wrench_weight = wrench_weight / self.unit**2
+        self._wrench_weight = wrench_weight / self.unit**2
+        self.wrench_weight = self._wrench_weight.copy()
         self.contact_rows, self.contact_low, self.contact_high = contact_rows(
             [robot.soles[foot] for foot in self.contacts], friction
         )
         self._normal_high = self.contact_high[16::17]
-        self.low: Array = np.concatenate([-robot.effort, np.zeros(self.n)])
-        self.high: Array = np.concatenate([robot.effort, np.zeros(self.n)])
-        self._limits = np.stack([robot.q_lower, robot.q_upper])
-        self._speeds = np.stack([-robot.v_limit, robot.v_limit])
-        self._wanted = np.zeros((2, self.n))
-        self._allowed = np.zeros((2, self.n))
+        self.limits: Array = np.zeros((2, 2 * self.n))
+        self.limits[:, : self.n] = -robot.effort, robot.effort
+        self._positions = LIMIT_RATE**2 * np.stack([robot.q_lower, robot.q_upper])
+        self._speeds = LIMIT_RATE * np.stack([-robot.v_limit, robot.v_limit])
+        self._reach = np.zeros((2, self.n))
         self.mass: Array = np.zeros((nv, nv))
         self.bias: Array = np.zeros(nv)
 
-    def fill(self, dynamics: Dynamics, normal_limit: Mapping[Foot, float]) -> None:
-        """Write the QP of the current state; `normal_limit` (N): largest normal forces."""
+    def fill(
+        self, dynamics: Dynamics, normal_limit: Mapping[Foot, float], shares: Sequence[float]
+    ) -> None:
+        """Write the QP of the current state.
+
+        `normal_limit` (N): the largest normal forces; `shares`: of the load on each contact.
+        """
         self.mass, self.bias = dynamics.mass, dynamics.bias
         for task, jacobian, target, slack in self._task_rows:
             task.update(dynamics, jacobian, target)
@@ -126,6 +132,7 @@ class TickProblem:
             np.multiply(terms.velocity, -BRAKE, out=wanted)
             wanted -= terms.drift
             self._normal_high[k] = normal_limit[foot]
+            np.divide(self._wrench_weight[span], shares[k], out=self.wrench_weight[span])
         self._base_rows[:] = dynamics.mass[:6]
         np.negative(dynamics.bias[:6], out=self._base_target)
         self.posture.target(dynamics, self.prior[6:])
@@ -137,19 +144,18 @@ class TickProblem:
         The distance d to a limit obeys d'' >= -2 LIMIT_RATE d' - LIMIT_RATE^2 d, critically
         damped; a speed limit outranks a position limit, so that low <= high always holds.
         """
-        wanted, allowed = self._wanted, self._allowed
-        np.subtract(self._limits, q, out=wanted)
-        wanted *= LIMIT_RATE
-        wanted -= v
-        wanted -= v
-        np.subtract(self._speeds, v, out=allowed)
-        np.maximum(wanted, allowed[0], out=wanted)
-        np.minimum(wanted, allowed[1], out=wanted)
-        np.multiply(wanted[0], LIMIT_RATE, out=self.low[self.n :])
-        np.multiply(wanted[1], LIMIT_RATE, out=self.high[self.n :])
+        wanted, (slowest, fastest) = self.limits[:, self.n :], self._reach
+        rate = LIMIT_RATE * v
+        moved = LIMIT_RATE**2 * q
+        moved += rate
+        moved += rate
+        np.subtract(self._positions, moved, out=wanted)
+        np.subtract(self._speeds, rate, out=self._reach)
+        np.maximum(wanted, slowest, out=wanted)
+        np.minimum(wanted, fastest, out=wanted)
 
     def forces(self, acceleration: Array, wrench: Array) -> Array:
-        """Return M a + h - J^T f (nv,): what is left for the base, zero, and the joint torques."""
+        """Return M a + h - J^T f (nv,): nothing on the base, for a solution; the joint torques."""
         forces: Array = dsymv(1.0, self.mass, acceleration)
         forces += self.bias
         forces -= wrench @ self.contact_jacobian
@@ -184,7 +190,7 @@ class TickProblem:
         limits[n:, nv + nf :] = -np.eye(n)
         scale = np.repeat([1.0 / unit, 1.0], n)
         offset = np.concatenate([self.bias[6:], np.zeros(n)])
-        low, high = (self.low - offset) * scale, (self.high - offset) * scale
+        low, high = (self.limits - offset) * scale
         cone = np.zeros((len(self.contact_rows), size))
         cone[:, nv : nv + nf] = self.contact_rows * self.unit / unit
         normal = np.arange(len(cone)) % 17 == 16

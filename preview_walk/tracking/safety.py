@@ -16,6 +16,7 @@ import numpy as np
 import qpsolvers
 
 from preview_walk.errors import PreviewWalkError
+from preview_walk.robots.robot import Robot
 from preview_walk.tracking.backends import Solution
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.problem import TickProblem
@@ -52,15 +53,16 @@ class QPFailure(PreviewWalkError):
         super().__init__(f"the QP of a tick was not solved: {why}.")
 
 
-def check_state(q: Array, v: Array, joint_names: tuple[str, ...]) -> None:
+def check_state(q: Array, v: Array, robot: Robot) -> None:
     """Raise `StateError` unless q (nq,) and v (nv,) are finite."""
     if q @ q + v @ v < np.inf:  # false for any nan or inf
         return
     for values, kind in ((q, "position"), (v, "velocity")):
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
-            joint = int(bad[0]) - (len(values) - len(joint_names))
-            where = f"joint '{joint_names[joint]}'" if joint >= 0 else "the base"
+            names = robot.joint_names
+            joint = int(bad[0]) - (len(values) - len(names))
+            where = f"joint '{names[joint]}'" if joint >= 0 else "the base"
             raise StateError(
                 f"the measured state must be finite, got {values[bad[0]]} "
                 f"for the {kind} of {where}."
@@ -95,7 +97,7 @@ class Fallback:
                 if foot in before.contacts:
                     at = 6 * before.contacts.index(foot)
                     wrench[6 * k : 6 * k + 6] = last.wrench[at : at + 6]
-            return Solution(last.acceleration, wrench, False, 0, "last solution")
+            return _stand_in(problem, last.acceleration, wrench, "last solution")
         self.status = DAMPED_POSTURE
         return self._damped(problem, dynamics)
 
@@ -110,4 +112,9 @@ class Fallback:
             needed = problem.forces(acceleration, wrench)[:6]
             to_base = problem.wrench_map * problem.unit
             wrench = np.linalg.lstsq(to_base, needed, rcond=None)[0] * problem.unit
-        return Solution(acceleration, wrench, False, 0, "damped posture")
+        return _stand_in(problem, acceleration, wrench, "damped posture")
+
+
+def _stand_in(problem: TickProblem, acceleration: Array, wrench: Array, status: str) -> Solution:
+    torques = problem.forces(acceleration, wrench)[6:]
+    return Solution(acceleration, wrench, torques, False, 0, status)

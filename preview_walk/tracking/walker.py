@@ -33,6 +33,10 @@ RAMP_TIME = 0.03
 """Shortest time (s) over which a new contact may take its full load."""
 
 
+SWING_PULL = 25.0
+"""Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
+
+
 @dataclass
 class FootState:
     """Where a foot is in its step: in contact since `since`, or on `swing`."""
@@ -232,9 +236,10 @@ def _step_limits(robot: Robot, omega: float) -> StepLimits:
     return StepLimits(
         replace(gait, forward=0.7 * leg, backward=0.5 * leg, max_width=wide),
         omega,
-        (0.8 * half.half_length, 0.8 * half.half_width),
+        (0.9 * half.half_length, 0.9 * half.half_width),
         (1.1 * pendulum, 3.5 * pendulum),
         2.8 * float(np.sqrt(leg)),
+        SWING_PULL,
         TOLERANCE * leg,
     )
 

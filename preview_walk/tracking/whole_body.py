@@ -13,6 +13,7 @@ from preview_walk.errors import InvalidInput
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.backends import DEFAULT, Backend, Solution, make_backend
+from preview_walk.tracking.contacts import load_shares
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.problem import TickProblem
@@ -76,7 +77,9 @@ class WholeBodyController:
         self.solution: Solution | None = None
         self.failure: QPFailure | None = None
         self._fallback = Fallback()
+        self._gravity = -float(robot.pin.gravity.linear[2])
         self._problems: dict[tuple[Foot, ...], TickProblem] = {}
+        self._contacts: tuple[Foot, ...] = ()
 
     @property
     def status(self) -> int:
@@ -107,7 +110,7 @@ class WholeBodyController:
         Raises `StateError` when it is not finite.
         """
         start = perf_counter()
-        check_state(q, v, self.robot.joint_names)
+        check_state(q, v, self.robot)
         self.dynamics.update(q, v)
         self.times.terms = perf_counter() - start
 
@@ -117,22 +120,32 @@ class WholeBodyController:
         `normal_limit` names the feet in contact and the normal force (N) each may carry.
         """
         start = perf_counter()
-        problem = self._problem(normal_limit)
+        problem = self.problem(normal_limit)
         filled = perf_counter()
         solution = self._solve(problem)
-        torques = problem.forces(solution.acceleration, solution.wrench)[6:]
-        np.minimum(torques, self.robot.effort, out=torques)
+        torques = np.minimum(solution.torques, self.robot.effort)
         np.maximum(torques, -self.robot.effort, out=torques)
-        self.solution = solution
+        self.solution, self._contacts = solution, problem.contacts
         self.times.assembly, self.times.solve = filled - start, perf_counter() - filled
         return torques
 
+    def wrench(self, foot: Foot) -> Array:
+        """Return the wrench (6,) that the last tick planned under a foot, zero for one in the air.
+
+        [force; moment about the sole's centre] on the robot, world axes, N and N·m.
+        """
+        if self.solution is None or foot not in self._contacts:
+            return np.zeros(6)
+        local = self.solution.wrench[6 * self._contacts.index(foot) :][:6]
+        world: Array = (local.reshape(2, 3) @ self.dynamics.feet[foot].rotation.T).reshape(6)
+        return world
+
     def build(self, normal_limit: Mapping[Foot, float]) -> qpsolvers.Problem:
         """Return the QP that `torques` would solve now; see `TickProblem.build`."""
-        return self._problem(normal_limit).build()
+        return self.problem(normal_limit).build()
 
-    def _problem(self, normal_limit: Mapping[Foot, float]) -> TickProblem:
-        """Return the problem of a set of contacts, made when first met, filled."""
+    def problem(self, normal_limit: Mapping[Foot, float]) -> TickProblem:
+        """Return the QP that `torques` would solve now, made when its contacts are first met."""
         contacts = tuple(foot for foot in FEET if foot in normal_limit)
         problem = self._problems.get(contacts)
         if problem is None:
@@ -146,8 +159,19 @@ class WholeBodyController:
                 self.friction,
             )
             self._problems[contacts] = problem
-        problem.fill(self.dynamics, normal_limit)
+        problem.fill(self.dynamics, normal_limit, self._shares(contacts))
         return problem
+
+    def _shares(self, contacts: tuple[Foot, ...]) -> tuple[float, ...]:
+        """Return the share of the load on each contact, from the ZMP that the CoM task asks for."""
+        if len(contacts) < 2:
+            return (1.0,) * len(contacts)
+        dynamics, acceleration = self.dynamics, self.com.acceleration
+        left, right = (dynamics.feet[foot].position for foot in contacts)
+        height = dynamics.com[2] - 0.5 * (left[2] + right[2])
+        lever = height / max(self._gravity + acceleration[2], 0.1 * self._gravity)
+        zmp = dynamics.com[:2] - lever * acceleration[:2]
+        return load_shares(zmp, left[:2], right[:2])
 
     def _solve(self, problem: TickProblem) -> Solution:
         """Return the backend's solution, or what stands in for it."""
@@ -164,7 +188,7 @@ class WholeBodyController:
 
 
 def _finite(solution: Solution) -> bool:
-    total = solution.acceleration.sum() + solution.wrench.sum()
+    total = solution.torques.sum() + solution.wrench.sum()
     return bool(-np.inf < total < np.inf)
 
 
@@ -180,8 +204,6 @@ def _posture_task(robot: Robot, gains: TrackingGains) -> PostureTask:
     # The trunk is one body: its joints keep the pelvis with the torso, whose task is upright.
     trunk = robot.pin.supports[robot.pin.frames[robot.torso].parentJoint]
     weight[[joints[int(j)].idx_v - 6 for j in trunk if int(j) > 1]] = gains.trunk_weight
-    middle = 0.5 * (robot.q_lower + robot.q_upper)
-    low = np.fmin(robot.q_lower + POSTURE_MARGIN, middle)  # fmin, fmax: middle may be nan
-    high = np.fmax(robot.q_upper - POSTURE_MARGIN, middle)
-    posture = np.clip(robot.posture[7:], low, high)
+    margin = np.minimum(POSTURE_MARGIN, 0.5 * (robot.q_upper - robot.q_lower))
+    posture = np.clip(robot.posture[7:], robot.q_lower + margin, robot.q_upper - margin)
     return PostureTask(posture, weight, gains.posture, legs)

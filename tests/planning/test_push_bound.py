@@ -32,11 +32,9 @@ ROWS = [(robot, share) for robot, rows in TABLE["REFERENCE"].items() for share i
 # Searched times take a second or two each; the benchmark prints all of them.
 TIMED = [
     ("TALOS", 0.3, "forward"),
-    ("TALOS", 0.7, "back"),
     ("TALOS", 0.9, "outward"),
     ("TALOS", 0.5, "inward"),
     ("G1", 0.5, "forward"),
-    ("G1", 0.1, "outward"),
     ("G1", None, "back"),
 ]
 PRINTED = 0.06
@@ -87,7 +85,6 @@ def supports(plan: SurvivalPlan) -> list[tuple[float, float, Array]]:
         (0.7, -60, "steps"),
         (0.9, 0, "steps_and_timing"),
         (0.1, -35, "steps_and_timing"),
-        (0.9, 90, "steps_and_timing"),
         (None, 100, "cop"),
         (None, 30, "steps"),
     ],
@@ -135,7 +132,7 @@ def test_plan_survives_its_push_in_a_simulation(
     assert np.all(side * strides[:, 1] < gait.max_width + 1e-4)
 
 
-@pytest.mark.parametrize(("share", "degrees"), [(0.2, 70), (1.0, -100), (None, 160)])
+@pytest.mark.parametrize(("share", "degrees"), [(0.2, 70), (1.0, -100)])
 def test_more_freedom_never_gives_less(share: float | None, degrees: float) -> None:
     bounds = [
         largest_impulse(G1, share, radians(degrees), answer)

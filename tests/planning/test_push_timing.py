@@ -115,7 +115,7 @@ def test_no_random_plan_beats_the_bound_at_its_times(seed: int, share: float, ta
     assert timed.capture.jump >= np.hypot(*push) * (1.0 - 1e-3)
 
 
-@pytest.mark.parametrize(("share", "degrees"), [(0.1, -90), (0.5, 0), (0.9, 150)])
+@pytest.mark.parametrize(("share", "degrees"), [(0.1, -90), (0.9, 150)])
 def test_no_random_times_beat_the_searched_ones(share: float, degrees: float) -> None:
     gait, rng = G1, np.random.default_rng(7)
     bound = largest_impulse(gait, share, radians(degrees), "steps_and_timing")

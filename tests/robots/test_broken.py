@@ -217,6 +217,12 @@ def test_wrong_posture(tmp_path):
         load_robot(path)
 
 
+def test_posture_outside_the_limits(tmp_path):
+    path = describe(tmp_path, '{"model": "walker.xml", "posture": {"left_elbow": 1}}')
+    with says("the posture puts the joint 'left_elbow' at 1; its limits are -2.3 and 0"):
+        load_robot(path)
+
+
 @pytest.mark.parametrize(
     ("facts", "sentence"),
     [

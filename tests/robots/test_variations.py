@@ -99,6 +99,46 @@ def test_free_joint_on_a_mount_around_the_robot(original):
     same_walk(robot, original)
 
 
+def test_slides_and_hinges_instead_of_a_free_joint(original):
+    """Six joints on three light frames carry the pelvis through its world."""
+    frames, closing = "", ""
+    for i, axis in enumerate(("1 0 0", "0 1 0", "0 0 1")):
+        frames += (
+            f'<body name="frame{i}">'
+            '<inertial pos="0 0 0" mass="1e-4" diaginertia="1e-6 1e-6 1e-6"/>'
+            f'<joint name="slide{i}" type="slide" axis="{axis}" armature="0" damping="0"/>'
+        )
+        closing += "</body>"
+    hinges = "".join(
+        f'<joint name="turn{i}" axis="{axis}" armature="0" damping="0"/>'
+        for i, axis in enumerate(("1 0 0", "0 1 0", "0 0 1"))
+    )
+    text = XML.read_text().replace('<body name="pelvis"', frames + '<body name="pelvis"')
+    text = text.replace('<freejoint name="root"/>', hinges)
+    text = text.replace("</body>\n  </worldbody>", f"</body>{closing}\n  </worldbody>")
+    text = text[: text.index("<keyframe>")] + "</mujoco>"
+    robot = load_robot(mujoco.MjSpec.from_string(text))
+    assert robot.mj.nv == original.mj.nv
+    assert robot.mass == pytest.approx(original.mass)
+    assert (
+        "joints between world and base became a free joint: "
+        "slide0, slide1, slide2, turn0, turn1, turn2"
+    ) in robot.notes
+
+
+def test_a_weld_to_the_scene_is_left_out(spec, original):
+    spec.add_equality(
+        name="crane",
+        type=mujoco.mjtEq.mjEQ_WELD,
+        objtype=mujoco.mjtObj.mjOBJ_BODY,
+        name1="torso",
+        name2="world",
+    )
+    robot = load_robot(spec)
+    assert "the constraint 'crane' to the scene is left out" in robot.notes
+    same_walk(robot, original)
+
+
 def test_other_things_in_the_scene_stay_behind(spec, original):
     box = spec.worldbody.add_body(name="box", pos=(2.0, 0.0, 0.5))
     box.add_freejoint()
@@ -184,6 +224,13 @@ def test_keyframes_sensors_and_contacts_do_not_matter(spec, original):
     spec.add_sensor(name="clock", type=mujoco.mjtSensor.mjSENS_CLOCK)
     spec.add_exclude(bodyname1="left_hip", bodyname2="right_hip")
     same_walk(load_robot(spec), original)
+
+
+def test_a_keyframe_outside_the_limits_is_brought_inside(spec):
+    spec.keys[0].qpos[11] = 0.4  # left elbow, which bends from -2.3 to 0
+    robot = load_robot(spec)
+    elbow = robot.posture[7 + robot.joint_names.index("left_elbow")]
+    assert elbow == pytest.approx(-0.05)
 
 
 def test_a_joint_that_mimics_another_is_locked(spec, original):
