@@ -1,7 +1,8 @@
 """How fast a robot walks: speed against CoM error, torque and cost of transport.
 
-Every speed is commanded to a standing robot for 15 s. The fastest walk that holds its speed (within
-5 %, no fall) is printed, the curves are drawn.
+Every speed is commanded to a standing robot for 15 s; beyond what its limits allow, steps are made
+as much longer as they are made quicker. The fastest walk that holds its speed (within 5 %, no fall)
+is printed, the curves are drawn.
 
     python benchmarks/speed_sweep.py --robot talos --jobs 4 --out speed_sweep.png
 """
@@ -12,6 +13,7 @@ import argparse
 import os
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import replace
 from math import nan
 from multiprocessing import get_context
 
@@ -25,18 +27,34 @@ from tqdm import tqdm
 
 import preview_walk as pw
 from preview_walk.analysis.summary import Summary
+from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.velocity import saturated
 
-COUNT, SPAN = 14, 15.0
-"""Number of speeds, and how long (s) each is commanded."""
+SHARES = [0.08 * k for k in range(1, 17)]
+"""Speeds, as shares of the fastest within the limits."""
+
+SPAN = 15.0
+"""How long (s) each is commanded."""
 
 WITHIN = 0.05
 """A walk holds its speed when it is this share from it at most."""
 
 
+def fastest(limits: GaitLimits) -> float:
+    """Return the forward speed (m/s) to which faster commands are scaled down."""
+    return saturated((100.0, 0.0, 0.0), limits)[0]
+
+
 def walk_at(name: str, speed: float) -> Summary:
     """Return the figures of a robot that is commanded a forward speed (m/s)."""
     walk = pw.Walk.standing(pw.load_robot(name))
+    limits = walk.limits
+    stretch = max(1.0, speed / fastest(limits)) ** 0.5
+    walk.limits = replace(
+        limits,
+        forward=limits.forward * stretch,
+        fast_step_time=limits.fast_step_time / stretch,
+    )
     walk.command(speed, 0.0, 0.0)
     walk.run(until=SPAN)
     walk.command(0.0, 0.0, 0.0)
@@ -83,9 +101,8 @@ def main() -> int:
     options = parser.parse_args()
 
     robot = pw.load_robot(options.robot)
-    # Commands beyond the legs' limits are scaled down to them, so the sweep goes just there.
-    top = saturated((100.0, 0.0, 0.0), pw.Walk.standing(robot).limits)[0]
-    speeds = [top * (k + 1) / COUNT for k in range(COUNT)]
+    top = fastest(pw.Walk.standing(robot).limits)
+    speeds = [share * top for share in SHARES]
     found: dict[float, Summary] = {}
     with ProcessPoolExecutor(options.jobs, mp_context=get_context("spawn")) as pool:
         futures = {pool.submit(walk_at, options.robot, speed): speed for speed in speeds}
@@ -93,6 +110,7 @@ def main() -> int:
             found[futures[future]] = future.result()
 
     done = {speed: found[speed] for speed in speeds}
+    print(f"{robot.title}; its limits allow {top:.3f} m/s")
     print("commanded   speed   CoM error rms x, y, z   torque   cost of     QPs")
     print("      m/s     m/s                      mm   /limit   transport   lost   outcome")
     for speed, s in done.items():

@@ -34,8 +34,9 @@ if TYPE_CHECKING:
     from preview_walk.robots.robot import Robot
     from preview_walk.simulation.pushes import Push, random_pushes
     from preview_walk.simulation.record import Record
+    from preview_walk.simulation.simulate import simulate, simulate_commands
     from preview_walk.simulation.video import render_video
-    from preview_walk.simulation.walk import Walk, simulate
+    from preview_walk.simulation.walk import Walk
     from preview_walk.tracking.gains import TrackingGains
 
 _HOMES = {
@@ -63,8 +64,9 @@ _HOMES = {
     "robots.robot": ("Robot",),
     "simulation.pushes": ("Push", "random_pushes"),
     "simulation.record": ("Record",),
+    "simulation.simulate": ("simulate", "simulate_commands"),
     "simulation.video": ("render_video",),
-    "simulation.walk": ("Walk", "simulate"),
+    "simulation.walk": ("Walk",),
     "tracking.gains": ("TrackingGains",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -113,6 +115,7 @@ __all__ = [
     "save_plot",
     "sideways",
     "simulate",
+    "simulate_commands",
     "straight",
     "to_pose",
     "track",

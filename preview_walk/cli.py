@@ -7,14 +7,15 @@ import re
 import shlex
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from io import StringIO
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from preview_walk.cli_options import Options, complain, parse
+from preview_walk.cli_options import PUSH_TIME, Options, complain, parse
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.files import OutputError, whole_file
 
@@ -36,12 +37,22 @@ _OPTION_OF = {
     "step_width": "--robot",
     "n_steps": "--steps",
     "start_pos": "--start",
+    "physics_hz": "--physics-hz",
     "friction": "--friction",
+    "solver": "--solver",
     "push": "--push",
     "seed": "--seed",
     "robot": "--robot",
+    # Words in which the check of a plan says what is wrong with a step.
+    "ahead": "--step-length",
+    "behind": "--step-length",
+    "air": "--step-time",
+    "turns": "--turn",
+    "collides": "--turn",
+    "beside": "--turn",
+    "across": "--turn",
 }
-"""The option that sets an argument of the library, by the name that its errors use."""
+"""The option that sets an argument of the library, by the words that its errors use."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -66,28 +77,45 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(options: Options, command: str) -> int:
+    if options.list_robots:
+        from preview_walk.robots.listing import list_robots
+
+        _say(list_robots())
+        return WALKED
+    if options.inspect is not None:
+        return _inspect(options.inspect, options.out)
     with _naming("--view"):
         _require_screen(options.view)
     import preview_walk as pw  # not before the options are right: engines take a while to load
-    from preview_walk.simulation.walk import FRICTION
 
     with _naming("--robot"):
         robot = pw.load_robot(options.robot)
-    with _naming("--step-length"):
-        plan = _plan(options, robot)
+    with _naming("--step-length", _OPTION_OF):
+        plan = None if options.commands else _plan(options, robot)
+    end = sum(duration for _, duration in options.commands) if plan is None else plan.end
     with _naming("--push"):
-        pushes = _pushes(options, plan)
+        pushes = _pushes(options, end)
+    with _naming("--pushes"):
+        pushes += _random_pushes(options, end)
     _make_folder(options.out)
-    with _naming("--robot"), _progress_bar() as progress:
-        record = pw.simulate(
-            robot,
-            plan,
-            pushes=pushes,
-            seed=options.seed,
-            progress=progress,
-            viewer=options.view,
-            friction=FRICTION if options.friction is None else options.friction,
-        )
+    given = {
+        "friction": options.friction,
+        "physics_hz": options.physics_hz,
+        "control_hz": options.control_hz,
+        "solver": options.solver,
+    }
+    with _naming("--robot", _OPTION_OF), _progress_bar() as progress:
+        settings: Any = {
+            "pushes": pushes,
+            "seed": options.seed,
+            "progress": progress,
+            "viewer": options.view,
+            **{name: value for name, value in given.items() if value is not None},
+        }
+        if plan is None:
+            record = pw.simulate_commands(robot, options.commands, start=options.start, **settings)
+        else:
+            record = pw.simulate(robot, plan, **settings)
     record = record.with_settings(command=command)
     stopped = bool(record.settings.get("interrupted"))
     if stopped:
@@ -102,6 +130,24 @@ def _run(options: Options, command: str) -> int:
     return FELL if record.settings.get("fell") else WALKED
 
 
+def _inspect(model: str, folder: Path) -> int:
+    """Print the report on a model and draw its stance; it is bad input if it cannot stand."""
+    from preview_walk.offscreen import off_screen
+    from preview_walk.robots.inspection import inspect_robot
+
+    inspection = inspect_robot(model)
+    _say(str(inspection))
+    if inspection.robot is None:
+        complain(f"--inspect: {inspection.problems[0].rstrip('.')}.")
+        return BAD_INPUT
+    _make_folder(folder)
+    picture = folder / "stance.png"
+    with _naming("--inspect"), whole_file(picture) as part, off_screen():
+        inspection.write_picture(part)
+    _say(f"\nstance and soles: {picture}")
+    return WALKED
+
+
 def _plan(options: Options, robot: Robot) -> FootstepPlan:
     from preview_walk.planning.footstep_planner import FootstepPlanner
 
@@ -112,23 +158,34 @@ def _plan(options: Options, robot: Robot) -> FootstepPlan:
         double_support_ratio=options.double_support_ratio,
     )
     ramp = round(abs(options.step_length) / RAMP_LENGTH)
-    return planner.generate_footsteps(options.steps, options.start, ramp=ramp)
+    return planner.generate_footsteps(options.steps, options.start, turn=options.turn, ramp=ramp)
 
 
-def _pushes(options: Options, plan: FootstepPlan) -> tuple[Push, ...]:
+def _pushes(options: Options, end: float) -> tuple[Push, ...]:
+    """Return the pushes asked for one by one; the walk ends at `end` (s)."""
     from preview_walk.simulation.pushes import Push
 
     for time, _, _ in options.pushes:
-        if time >= plan.end:
-            raise InvalidInput(
-                f"must begin before the walk ends at {plan.end:.2f} s, got {time:g} s."
-            )
+        if time >= end:
+            raise InvalidInput(f"must begin before the walk ends at {end:.2f} s, got {time:g} s.")
     return tuple(Push(time, duration, force) for time, duration, force in options.pushes)
+
+
+def _random_pushes(options: Options, end: float) -> tuple[Push, ...]:
+    """Return the random series of pushes; the walk ends at `end` (s)."""
+    if options.random_pushes is None:
+        return ()
+    from preview_walk.simulation.pushes import random_pushes
+
+    every, impulse = options.random_pushes
+    if every >= end:
+        raise InvalidInput(f"must begin before the walk ends at {end:.2f} s, got every={every:g}.")
+    return random_pushes(every, impulse, PUSH_TIME, end, options.seed)
 
 
 def _write(
     record: Record, robot: Robot, folder: Path, *, video: bool
-) -> tuple[list[str], OutputError | None]:
+) -> tuple[list[str], PreviewWalkError | None]:
     """Write everything to the folder, most precious first.
 
     Returns the names of the files written and the first failure: where a disk has no room for the
@@ -150,12 +207,12 @@ def _write(
     elif not video:
         del writers["walk.mp4"]
     written: list[str] = []
-    failure: OutputError | None = None
+    failure: PreviewWalkError | None = None
     for name, write in writers.items():
         try:
             write(folder / name)
             written.append(name)
-        except OutputError as error:
+        except PreviewWalkError as error:
             failure = failure or error
     return written, failure
 
@@ -176,15 +233,15 @@ def _say(text: str) -> None:
 
 
 @contextmanager
-def _naming(option: str) -> Iterator[None]:
-    """Put an option's name before the sentence of an error: the one it speaks of, or `option`."""
+def _naming(option: str, known: Mapping[str, str] = MappingProxyType({})) -> Iterator[None]:
+    """Put an option's name before the sentence of an error: `option`, or a `known` word's."""
     try:
         yield
     except OutputError:
         raise
     except PreviewWalkError as error:
         words = re.findall(r"\w+", str(error))
-        name = next((_OPTION_OF[word] for word in words if word in _OPTION_OF), option)
+        name = next((known[word] for word in words if word in known), option)
         raise InvalidInput(f"{name}: {str(error).rstrip('.')}.") from error
 
 
@@ -209,9 +266,8 @@ def _progress_bar() -> Iterator[Callable[[float, float], None]]:
     from tqdm import tqdm
 
     form = "{desc}: {percentage:3.0f}%|{bar}| {n:.1f}/{total:.1f} s [{elapsed}<{remaining}]"
-    bars: list[
-        Any
-    ] = []  # none before the walk begins: bad input is to get its sentence and nothing else
+    # None before the walk begins: bad input is to get its sentence and nothing else.
+    bars: list[Any] = []
 
     def progress(time: float, end: float) -> None:
         if not bars:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import errno
 import json
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,11 +18,11 @@ import pytest
 from synthetic_walk import walk_record
 
 import preview_walk as pw
-from preview_walk import analysis, cli, files
+from preview_walk import analysis, cli, files, offscreen
 from preview_walk.analysis import PLOTS
 from preview_walk.errors import InvalidInput, PreviewWalkError
+from preview_walk.robots import inspection
 from preview_walk.simulation.record import Record
-from preview_walk.simulation.walk import FRICTION
 
 OUTPUTS = {"record.npz", "summary.json", "walk.png", *(f"{name}.png" for name in PLOTS)}
 
@@ -42,11 +43,16 @@ class Simulation:
         progress(plan.end, plan.end)
         return walk_record(len(plan.steps), plan=plan, **self.settings)
 
+    def by_commands(self, robot: Any, commands: Any, *, progress: Any, **options: Any) -> Record:
+        self.calls.append({"robot": robot, "commands": commands, **options})
+        return walk_record(4, **self.settings)
+
 
 @pytest.fixture
 def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Simulation:
     made = Simulation()
     monkeypatch.setattr(pw, "simulate", made)
+    monkeypatch.setattr(pw, "simulate_commands", made.by_commands)
     if not request.node.get_closest_marker("real_plots"):
         monkeypatch.setattr(analysis, "plot", lambda _, path: _blank(path))
         monkeypatch.setattr(analysis, "save_plot", lambda _, name, path: _blank(path))
@@ -106,9 +112,49 @@ def test_options_reach_plan_and_simulation(simulation: Simulation, out: Path) ->
     assert plan.steps[0].land - plan.steps[0].lift == pytest.approx(0.6)
 
 
-def test_without_friction_the_simulation_decides(simulation: Simulation, out: Path) -> None:
+def test_what_is_not_asked_for_the_simulation_decides(simulation: Simulation, out: Path) -> None:
     assert run(out) == 0
-    assert simulation.calls[0]["friction"] == FRICTION
+    assert set(simulation.calls[0]) == {"robot", "plan", "pushes", "seed", "viewer"}
+
+
+def test_rates_and_solver_reach_the_simulation(simulation: Simulation, out: Path) -> None:
+    assert run(out, *"--physics-hz 2000 --control-hz 500 --solver daqp".split()) == 0
+    (call,) = simulation.calls
+    assert (call["physics_hz"], call["control_hz"], call["solver"]) == (2000, 500, "daqp")
+
+
+def test_turn_is_per_step(simulation: Simulation, out: Path) -> None:
+    assert run(out, "--turn", "-9") == 0
+    plan = simulation.calls[0]["plan"]
+    assert plan.steps[-1].yaw == pytest.approx(np.radians(-9 * (1 / 3 + 2 / 3 + 1 / 3)))
+
+
+def test_a_walk_by_velocity(simulation: Simulation, out: Path) -> None:
+    line = "--velocity 0.3,0,0 --duration 4 --velocity 0,.1,-18 --duration 2 --start 1,2,180"
+    assert cli.main([*line.split(), "--out", str(out)]) == 0
+    (call,) = simulation.calls
+    assert call["commands"] == (((0.3, 0.0, 0.0), 4.0), ((0.0, 0.1, np.radians(-18)), 2.0))
+    assert call["start"] == (1.0, 2.0, np.pi)
+    assert {path.name for path in out.iterdir()} == OUTPUTS
+
+
+def test_random_pushes_begin_within_the_walk(simulation: Simulation, out: Path) -> None:
+    line = "--velocity 0.3,0,0 --duration 10 --pushes every=3,impulse=20 --seed 4"
+    assert cli.main([*line.split(), "--push", "1,0.1,5,0,0", "--out", str(out)]) == 0
+    first, *series = simulation.calls[0]["pushes"]
+    assert first == pw.Push(1.0, 0.1, (5.0, 0.0, 0.0))
+    assert tuple(series) == pw.random_pushes(3.0, 20.0, 0.2, 10.0, 4)
+    assert len(series) == 3
+
+
+def test_random_pushes_that_come_too_late_are_told(
+    simulation: Simulation, out: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = "--velocity 0.3,0,0 --duration 2 --pushes every=3,impulse=20"
+    assert cli.main([*line.split(), "--out", str(out)]) == 2
+    assert complaint(capsys) == (
+        "preview-walk: --pushes: must begin before the walk ends at 2.00 s, got every=3."
+    )
 
 
 def test_the_walk_speeds_up_and_slows_down(simulation: Simulation, out: Path) -> None:
@@ -154,6 +200,11 @@ def test_ctrl_c_elsewhere_is_one_line(
         (PreviewWalkError("it cannot walk."), "--robot: it cannot walk."),
         (InvalidInput("friction must be > 0, got 0."), "--friction: friction must be > 0, got 0."),
         (InvalidInput("a push names the body 'x'"), "--push: a push names the body 'x'."),
+        (InvalidInput("solver must be osqp"), "--solver: solver must be osqp."),
+        (InvalidInput("physics_hz must be 1"), "--physics-hz: physics_hz must be 1."),
+        (InvalidInput("step 3 lands 1 m ahead of"), "--step-length: step 3 lands 1 m ahead of."),
+        (InvalidInput("step 3 is 0.1 s in the air"), "--step-time: step 3 is 0.1 s in the air."),
+        (InvalidInput("step 3 turns 1 rad out"), "--turn: step 3 turns 1 rad out."),
     ],
 )
 def test_errors_of_the_library_name_the_option(
@@ -255,6 +306,36 @@ def test_nothing_of_an_earlier_run_stays(simulation: Simulation, out: Path) -> N
     assert (out / "notes.txt").read_text() == "old"
 
 
+def test_the_catalogue_is_listed(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(out, "--list-robots") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[:2] == ["name", "robot"]
+    assert any(line.startswith("talos ") and "90.3" in line for line in lines)
+    assert not out.exists()
+
+
+def test_a_model_is_inspected_and_drawn(
+    out: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(offscreen, "off_screen", nullcontext)
+    monkeypatch.setattr(
+        inspection.Inspection, "write_picture", lambda _, path: path.write_bytes(b"a picture")
+    )
+    assert run(out, "--inspect", "humanoid-walker") == 0
+    printed = capsys.readouterr().out
+    assert "left leg: left_hip_yaw" in printed
+    assert printed.endswith(f"stance and soles: {out / 'stance.png'}\n")
+    assert [path.name for path in out.iterdir()] == ["stance.png"]
+
+
+def test_a_model_that_cannot_stand_is_bad_input(
+    out: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(out, "--inspect", "none.xml") == 2
+    assert complaint(capsys) == "preview-walk: --inspect: the file 'none.xml' does not exist."
+    assert not out.exists()
+
+
 def test_video_is_written_whole_or_not_at_all(
     simulation: Simulation,
     out: Path,
@@ -274,5 +355,7 @@ def test_video_is_written_whole_or_not_at_all(
     assert (out / "walk.mp4").read_bytes() == b"half a film"
     broken = True
     assert run(out, "--video") == 2
-    assert complaint(capsys) == "preview-walk: --video: no OpenGL to render with."
+    printed = capsys.readouterr()
+    assert printed.err.splitlines()[-1] == "preview-walk: --video: no OpenGL to render with."
+    assert "Written to" in printed.out
     assert {path.name for path in out.iterdir()} == OUTPUTS

@@ -24,6 +24,7 @@ import numpy as np
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import compose, heading_of, pose_at
+from preview_walk.planning.recovery_plan import SHORT_PAUSE, landed_at
 from preview_walk.types import Array
 
 TIMES = 40
@@ -42,13 +43,10 @@ SWING_SHARE, ACCELERATION_SHARE, COAST_SHARE = 0.53, 0.173, 0.2
 acceleration times that squared; a foot under way gets further by a share of its speed times the
 time left."""
 
-SHORT_PAUSE = 0.06
-"""Double support (s) after a changed step: the next one cannot wait."""
-
 TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
 
-LATEST = 0.12
+LATEST = 0.08
 """A landing nearer than this (s) is not changed any more."""
 
 
@@ -183,22 +181,4 @@ def _best(
     turn = heading_of(step.pose)[2] - heading[2]
     sole = gait.clamp(step.foot, heading, compose(heading, x, y, turn))
     pose = pose_at(*sole, float(step.pose[2, 3]))
-    return shifted(plan, t, pose, float(land[best]))
-
-
-def shifted(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepPlan:
-    """Return the plan whose step in the air lands at `pose` at `land`; later steps move with it."""
-    step = plan.swing_at(t)
-    assert step is not None
-    index = plan.steps.index(step)
-    move = np.eye(4)
-    move[:3, 3] = pose[:3, 3] - step.pose[:3, 3]
-    delay = land - step.land
-    later = []
-    for following in plan.steps[index + 1 :]:
-        if not later:  # the double support is cut short
-            delay -= max(0.0, following.lift - step.land - SHORT_PAUSE)
-        lift, down = following.lift + delay, following.land + delay
-        later.append(Footstep(following.foot, move @ following.pose, lift, down))
-    moved = plan.retarget(t, pose, land)
-    return moved.replace_after(t, later)
+    return landed_at(plan, t, pose, float(land[best]))

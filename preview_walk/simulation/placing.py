@@ -1,4 +1,4 @@
-"""Where the robot stands at the start: its walking posture put onto a plan's stance soles."""
+"""What a robot's body means for a plan: the steps it can make, and how it stands at the start."""
 
 from __future__ import annotations
 
@@ -7,10 +7,18 @@ import pinocchio as pin
 
 from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import midfeet, pose_at
+from preview_walk.planning.support import Sole
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.types import FEET, Array
+
+
+def gait_limits(robot: Robot) -> GaitLimits:
+    """Return the bounds of the steps that the robot's legs can make."""
+    sole = Sole(robot.soles["left"].half_length, robot.soles["left"].half_width)
+    return GaitLimits.for_leg(robot.leg_length, robot.step_width, sole)
 
 
 def standing_configuration(robot: Robot, plan: FootstepPlan) -> Array:

@@ -59,7 +59,8 @@ def tick_row(
     `spent` is the wall time (s) of the whole tick.
     """
     body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
-    assert reference is not None and body.solution is not None
+    assert reference is not None
+    assert body.solution is not None
     left, right = dynamics.feet["left"], dynamics.feet["right"]
     planned = _planned_wrenches(walker, body.solution.wrench)
     upright = float(dynamics.torso.rotation[2, 2])

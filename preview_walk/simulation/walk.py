@@ -9,15 +9,12 @@ from typing import Any
 import numpy as np
 
 from preview_walk.errors import InvalidInput, PreviewWalkError
-from preview_walk.planning.check import require_walkable
 from preview_walk.planning.footstep_planner import FootstepPlanner
 from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.limits import GaitLimits
-from preview_walk.planning.support import Sole
 from preview_walk.planning.velocity import follow_velocity, saturated
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import standing_configuration
+from preview_walk.simulation.placing import gait_limits, standing_configuration
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.record import Record
 from preview_walk.simulation.recorder import Recorder
@@ -50,7 +47,7 @@ Progress = Callable[[float, float], None]
 
 
 class Walk:
-    """A running walk; `simulate` is the short way for a plan known beforehand.
+    """A running walk; `simulate` and `simulate_commands` are the short ways.
 
     Args:
         robot: from `load_robot`.
@@ -93,10 +90,7 @@ class Walk:
         q = standing_configuration(robot, plan)
         self.world.place(q)
         self.walker = Walker(robot, plan, q, friction, gains, solver)
-        sole = robot.soles["left"]
-        self.limits = GaitLimits.for_leg(
-            robot.leg_length, robot.step_width, Sole(sole.half_length, sole.half_width)
-        )
+        self.limits = gait_limits(robot)
         self._command = (0.0, 0.0, 0.0)
         self._obey_at = np.inf
         self._schedule: list[tuple[float, Command]] = []
@@ -264,64 +258,3 @@ class Walk:
             self._fall = (t, f"the CoM sank to {low} above the feet")
         elif tilt > FALL_TILT:
             self._fall = (t, f"the torso leaned {np.degrees(tilt):.0f} degrees")
-
-
-def simulate(
-    robot: Robot,
-    plan: FootstepPlan,
-    *,
-    progress: Progress | None = None,
-    viewer: bool = False,
-    **settings: Any,
-) -> Record:
-    """Walk a robot along a plan in MuJoCo and return the record.
-
-    The robot starts standing on the plan's stance soles and stands for `STAND_AFTER` after its
-    end. A fall or Ctrl-C ends the run early; the record says so.
-
-    Args:
-        robot: from `load_robot`.
-        plan: the footsteps.
-        progress: called now and then.
-        viewer: open MuJoCo's live viewer and run in real time.
-        settings: the keyword arguments of `Walk`.
-
-    Raises:
-        InvalidInput: the plan has a step that the robot cannot make, or see `Walk`.
-    """
-    walk = Walk(robot, plan, visuals=viewer, **settings)
-    require_walkable(plan, walk.limits)
-    return _recorded(walk, progress, viewer)
-
-
-def simulate_commands(
-    robot: Robot,
-    commands: Sequence[tuple[Command, float]],
-    *,
-    start: Sequence[float] = (0.0, 0.0),
-    progress: Progress | None = None,
-    viewer: bool = False,
-    **settings: Any,
-) -> Record:
-    """Walk a robot by velocity commands, each for its duration, then to a stop; return the record.
-
-    `commands` are pairs ((vx, vy, wz), duration) in m/s, m/s, rad/s and s; `start` is (x, y[, yaw])
-    in m and rad. For the other arguments see `simulate`.
-
-    Raises:
-        InvalidInput: a command cannot be, or see `Walk`.
-    """
-    walk = Walk.standing(robot, start, visuals=viewer, **settings)
-    walk.schedule(commands)
-    return _recorded(walk, progress, viewer)
-
-
-def _recorded(walk: Walk, progress: Progress | None, viewer: bool) -> Record:
-    """Run a walk to its end and return its record."""
-    if viewer:
-        from preview_walk.simulation.viewer import run_in_viewer
-
-        run_in_viewer(walk, progress)
-    else:
-        walk.run(progress=progress)
-    return walk.record()

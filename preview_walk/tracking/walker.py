@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
-from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.dcm import nearest_inside
-from preview_walk.planning.limits import GaitLimits
-from preview_walk.planning.pattern import PLANNING_DT, ComReference, WalkingPattern
+from preview_walk.planning.pattern import ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
-from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
 from preview_walk.planning.swing_trajectory import Swing
 from preview_walk.planning.support import Sole, support_polygon
 from preview_walk.robots.posture import leg_joints
@@ -20,6 +18,7 @@ from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics, FrameTerms
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.momentum_model import momentum_model
+from preview_walk.tracking.recovery import Recovery
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 
@@ -31,10 +30,6 @@ CONTACT_FORCE = 0.03
 
 RAMP_TIME = 0.03
 """Shortest time (s) over which a new contact may take its full load."""
-
-
-SWING_PULL = 25.0
-"""Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
 
 
 @dataclass
@@ -81,9 +76,7 @@ class Walker:
         self.feet = {
             foot: FootState(True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
         }
-        self.step_limits = _step_limits(robot, self.pattern.omega)
-        self._adapt_at = -np.inf
-        self._nominal: Footstep | None = None
+        self.recovery = Recovery(robot, self.pattern.omega)
         self.reference: ComReference | None = None
 
     @property
@@ -103,40 +96,11 @@ class Walker:
         """
         body = self.body
         body.update(q, v)
-        self._adapt(t)
+        self.recovery.answer(t, self.pattern, body.dynamics)
         self._contacts(t, normal_force)
         self._track_com(t)
         self._track_torso(t)
         return body.torques(self._normal_limits(t))
-
-    def _adapt(self, t: float) -> None:
-        """Change the step in the air where the measured DCM asks for it."""
-        if t < self._adapt_at:
-            return
-        self._adapt_at = t + PLANNING_DT - 1e-9
-        pattern, dynamics = self.pattern, self.body.dynamics
-        step = pattern.plan.swing_at(t)
-        if step is None:
-            return
-        following = next((s for s in pattern.plan.steps if s.lift >= step.land), None)
-        pause = following.lift - step.land if following is not None else pattern.plan.settle
-        if self._nominal is None or self._nominal.lift != step.lift:
-            self._nominal = step
-        terms = dynamics.feet[step.foot]
-        switch = step.land + 0.5 * pause
-        dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
-        plan = adapt_step(
-            pattern.plan,
-            t,
-            dcm,
-            (pattern.planned_dcm(t), pattern.planned_dcm(switch)),
-            (terms.position, terms.rotation @ terms.velocity[:3]),
-            self._nominal,
-            self.step_limits,
-        )
-        if plan is not None:
-            pattern.plan = plan
-            pattern.rejoin(t, dynamics.com[:2])
 
     def _contacts(self, t: float, normal_force: dict[Foot, float]) -> None:
         """Follow the plan's lifts and landings, and what the soles feel."""
@@ -153,9 +117,10 @@ class Walker:
                         start, step.pose, step.lift, step.land, self.swing_height
                     )
                     state.contact = False
-                late = (t - step.lift) / (step.land - step.lift) > 0.7
+                late = (t - step.lift) / (step.land - step.lift) > 0.6
                 if not state.contact and late and touching:
                     state.contact, state.since = True, t
+                    self.recovery.touched_down(t, foot, self.pattern, _pose(self.body.dynamics.feet[foot]))
                 if state.swing.end is not step.pose or state.swing.land != step.land:
                     state.swing = state.swing.retarget(t, step.pose, step.land)
                 state.pose, task.velocity, task.acceleration = state.swing.at(t)
@@ -224,24 +189,6 @@ def _legs(robot: Robot, dynamics: Dynamics) -> LegGeometry:
     hip = leg_joints(robot.pin, robot.soles["left"].frame)[2]
     height = dynamics.data.oMi[hip].translation[2] - dynamics.feet["left"].position[2]
     return LegGeometry(robot.leg_length, float(height), robot.com_height)
-
-
-def _step_limits(robot: Robot, omega: float) -> StepLimits:
-    """Return what a recovery step of this robot may be, in proportion to its legs."""
-    half, leg = robot.soles["left"], robot.leg_length
-    sole = Sole(half.half_length, half.half_width)
-    gait = GaitLimits.for_leg(leg, robot.step_width, sole)
-    wide = robot.step_width + 0.45 * leg
-    pendulum = float(np.sqrt(leg / 9.81))
-    return StepLimits(
-        replace(gait, forward=0.7 * leg, backward=0.5 * leg, max_width=wide),
-        omega,
-        (0.9 * half.half_length, 0.9 * half.half_width),
-        (1.1 * pendulum, 3.5 * pendulum),
-        2.8 * float(np.sqrt(leg)),
-        SWING_PULL,
-        TOLERANCE * leg,
-    )
 
 
 def _pose(terms: FrameTerms) -> Array:

@@ -1,0 +1,95 @@
+"""Whole walks in one call: along a plan, or by velocity commands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypedDict
+
+from preview_walk.planning.check import require_walkable
+from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.robots.robot import Robot
+from preview_walk.simulation.placing import gait_limits
+from preview_walk.simulation.pushes import Push
+from preview_walk.simulation.record import Record
+from preview_walk.simulation.walk import Command, Progress, Walk
+from preview_walk.tracking.gains import TrackingGains
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+class Settings(TypedDict, total=False):
+    """The settings of a run, all optional; what they mean stands at `Walk`."""
+
+    physics_hz: int
+    control_hz: int
+    friction: float
+    pushes: Sequence[Push]
+    seed: int
+    gains: TrackingGains | None
+    solver: str
+
+
+def simulate(
+    robot: Robot,
+    plan: FootstepPlan,
+    *,
+    progress: Progress | None = None,
+    viewer: bool = False,
+    **settings: Unpack[Settings],
+) -> Record:
+    """Walk a robot along a plan in MuJoCo and return the record.
+
+    The robot starts standing on the plan's stance soles and stands for a second after its end. A
+    fall or Ctrl-C ends the run early; the record says so.
+
+    Args:
+        robot: from `load_robot`.
+        plan: the footsteps.
+        progress: called now and then with the simulated time and its end (s).
+        viewer: open MuJoCo's live viewer and run in real time.
+        settings: physics_hz, control_hz, friction, pushes, seed, gains, solver: see `Walk`.
+
+    Raises:
+        InvalidInput: the plan has a step that the robot cannot make; and as `Walk` does.
+    """
+    require_walkable(plan, gait_limits(robot))
+    return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
+
+
+def simulate_commands(
+    robot: Robot,
+    commands: Sequence[tuple[Command, float]],
+    *,
+    start: Sequence[float] = (0.0, 0.0),
+    progress: Progress | None = None,
+    viewer: bool = False,
+    **settings: Unpack[Settings],
+) -> Record:
+    """Walk a robot by velocity commands, each for its duration, then to a stop; return the record.
+
+    Args:
+        robot: from `load_robot`.
+        commands: pairs ((vx, vy, wz), duration) in m/s, m/s, rad/s and s.
+        start: (x, y) or (x, y, yaw) midway between the feet at first (m, rad).
+        progress: called now and then with the simulated time and its end (s).
+        viewer: open MuJoCo's live viewer and run in real time.
+        settings: physics_hz, control_hz, friction, pushes, seed, gains, solver: see `Walk`.
+
+    Raises:
+        InvalidInput: a command or duration that cannot be; and as `Walk` does.
+    """
+    walk = Walk.standing(robot, start, visuals=viewer, **settings)
+    walk.schedule(commands)
+    return _recorded(walk, progress, viewer)
+
+
+def _recorded(walk: Walk, progress: Progress | None, viewer: bool) -> Record:
+    """Run a walk to its end and return its record."""
+    if viewer:
+        from preview_walk.simulation.viewer import run_in_viewer
+
+        run_in_viewer(walk, progress)
+    else:
+        walk.run(progress=progress)
+    return walk.record()

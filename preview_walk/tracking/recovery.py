@@ -1,0 +1,112 @@
+"""Push recovery: changes the plan where the measured DCM can no longer follow it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.limits import GaitLimits
+from preview_walk.planning.pattern import PLANNING_DT, WalkingPattern
+from preview_walk.planning.recovery_plan import hastened, landed_at, stepped_out
+from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
+from preview_walk.planning.support import Sole
+from preview_walk.robots.robot import Robot
+from preview_walk.tracking.dynamics import Dynamics
+from preview_walk.types import Array, Foot
+
+SWING_PULL = 25.0
+"""Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
+
+EARLY = 0.03
+"""A foot that touches down earlier than planned by more than this (s) has landed where it is."""
+
+HOLD = 0.9
+"""Share of the sole within which the ZMP can be held."""
+
+
+class Recovery:
+    """Decides at every planning tick whether the plan stays; `answer` changes it where not."""
+
+    def __init__(self, robot: Robot, omega: float) -> None:
+        half, leg = robot.soles["left"], robot.leg_length
+        sole = Sole(half.half_length, half.half_width)
+        gait = GaitLimits.for_leg(leg, robot.step_width, sole)
+        pendulum = float(np.sqrt(leg / 9.81))
+        self.limits = StepLimits(
+            replace(
+                gait,
+                forward=0.7 * leg,
+                backward=0.5 * leg,
+                max_width=robot.step_width + 0.45 * leg,
+            ),
+            omega,
+            (HOLD * half.half_length, HOLD * half.half_width),
+            (1.1 * pendulum, 3.5 * pendulum),
+            2.8 * float(np.sqrt(leg)),
+            SWING_PULL,
+            TOLERANCE * leg,
+        )
+        self._stand_sole = Sole(*self.limits.zmp)
+        self._swing_time = 1.4 * pendulum
+        self._due = -np.inf
+        self._nominal: Footstep | None = None
+
+    def answer(self, t: float, pattern: WalkingPattern, dynamics: Dynamics) -> None:
+        """Replace the pattern's plan where the state measured at t (s) asks for another."""
+        if t < self._due:
+            return
+        self._due = t + PLANNING_DT - 1e-9
+        dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
+        step = pattern.plan.swing_at(t)
+        if step is None:
+            plan = self._standing(t, pattern, dcm)
+        else:
+            plan = self._swinging(t, pattern, dcm, step, dynamics)
+        if plan is not None:
+            pattern.plan = plan
+            pattern.rejoin(t, dynamics.com[:2])
+
+    def touched_down(self, t: float, foot: Foot, pattern: WalkingPattern, pose: Array) -> None:
+        """Take a foot that touches the ground at `pose` (4, 4) before its time as landed there."""
+        step = pattern.plan.swing_at(t)
+        if step is not None and step.foot == foot and step.land - t > EARLY:
+            pattern.plan = landed_at(pattern.plan, t, pose, t + 1e-4)
+
+    def _swinging(
+        self, t: float, pattern: WalkingPattern, dcm: Array, step: Footstep, dynamics: Dynamics
+    ) -> FootstepPlan | None:
+        if self._nominal is None or self._nominal.lift != step.lift:
+            self._nominal = step
+        following = pattern.plan.next_lift(step.land)
+        settle = pattern.plan.settle
+        pause = settle if following is None else min(settle, following.lift - step.land)
+        sole = dynamics.feet[step.foot]
+        return adapt_step(
+            pattern.plan,
+            t,
+            dcm,
+            (pattern.planned_dcm(t), pattern.planned_dcm(step.land + 0.5 * pause)),
+            (sole.position, sole.rotation @ sole.velocity[:3]),
+            self._nominal,
+            self.limits,
+        )
+
+    def _standing(self, t: float, pattern: WalkingPattern, dcm: Array) -> FootstepPlan | None:
+        error = np.abs(dcm - pattern.planned_dcm(t)).max()
+        if error <= self.limits.tolerance:
+            return None
+        sooner = hastened(pattern.plan, t)
+        if sooner is not None:
+            return sooner
+        limits = self.limits
+        return stepped_out(
+            pattern.plan,
+            t,
+            dcm,
+            self._stand_sole,
+            limits.gait,
+            limits.omega,
+            self._swing_time,
+        )
