@@ -25,10 +25,7 @@ import numpy as np
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.analysis.summary import Summary
-from preview_walk.planning.gaits import arc, sideways, straight, turn_in_place
-from preview_walk.robots.robot import Robot
-from preview_walk.simulation.record import Record
+from preview_walk.simulation.placing import gait_limits
 
 Command = tuple[float, float, float]
 Timetable = list[tuple[float, Command]]
@@ -59,7 +56,7 @@ def random_commands(seed: int, span: float = SPAN) -> Timetable:
     return [*table, (span, (0.0, 0.0, 0.0))]
 
 
-def obey(robot: Robot, table: Timetable) -> Record:
+def obey(robot: pw.Robot, table: Timetable) -> pw.Record:
     """Return the record of a walk that obeys a timetable of commands and then stands."""
     walk = pw.Walk.standing(robot)
     for time, command in table:
@@ -69,12 +66,12 @@ def obey(robot: Robot, table: Timetable) -> Record:
 
 
 @cache
-def talos() -> Robot:
+def talos() -> pw.Robot:
     """Return TALOS, loaded once for each process."""
     return pw.load_robot("talos")
 
 
-def straight_walk(steps: int, start: Command = (0.0, 0.0, 0.0), friction: float = 0.8) -> Record:
+def straight_walk(steps: int, start: Command = (0.0, 0.0, 0.0), friction: float = 0.8) -> pw.Record:
     """Return the record of the default walk with another length, place or floor."""
     robot = talos()
     planner = pw.FootstepPlanner(0.25, robot.step_width, 0.9)
@@ -82,28 +79,28 @@ def straight_walk(steps: int, start: Command = (0.0, 0.0, 0.0), friction: float 
     return pw.simulate(robot, plan, friction=friction)
 
 
-def gait(name: str, size: float) -> Record:
+def gait(name: str, size: float) -> pw.Record:
     """Return the record of a whole gait: "circle" (turns), "turn" (rad), "side", "ahead" (m)."""
     robot = talos()
-    limits = pw.Walk.standing(robot).limits
+    limits = gait_limits(robot)
     planner = pw.FootstepPlanner(0.25, robot.step_width, 0.8)
     if name == "circle":
-        plan = arc(1.0, size, planner, limits=limits, ramp=2)
+        plan = pw.arc(1.0, size, planner, limits=limits, ramp=2)
     elif name == "turn":
-        plan = turn_in_place(size, planner, limits=limits)
+        plan = pw.turn_in_place(size, planner, limits=limits)
     elif name == "side":
-        plan = sideways(size, planner, limits=limits)
+        plan = pw.sideways(size, planner, limits=limits)
     else:
-        plan = straight(size, planner, limits=limits, ramp=2)
+        plan = pw.straight(size, planner, limits=limits, ramp=2)
     return pw.simulate(robot, plan)
 
 
-def commanded(*table: tuple[float, Command]) -> Record:
+def commanded(*table: tuple[float, Command]) -> pw.Record:
     """Return the record of TALOS obeying a timetable."""
     return obey(talos(), list(table))
 
 
-def studies() -> Iterator[tuple[str, Callable[..., Record], tuple[object, ...]]]:
+def studies() -> Iterator[tuple[str, Callable[..., pw.Record], tuple[object, ...]]]:
     """Yield a name, a function and its arguments for every walk."""
     for seed in SEEDS:
         yield f"random commands, seed {seed}", commanded, tuple(random_commands(seed))
@@ -126,19 +123,19 @@ def studies() -> Iterator[tuple[str, Callable[..., Record], tuple[object, ...]]]
     yield "200 steps", straight_walk, (200,)
 
 
-def figures(work: Callable[..., Record], arguments: tuple[object, ...]) -> Summary:
+def figures(work: Callable[..., pw.Record], arguments: tuple[object, ...]) -> pw.Summary:
     """Return the figures of one walk; runs in a process of its own."""
     return work(*arguments).summary()
 
 
-def held(summary: Summary) -> bool:
+def held(summary: pw.Summary) -> bool:
     """Tell whether a walk did what it must."""
     position, yaw = summary.final_position_error, summary.final_yaw_error
     on_plan = position is not None and position <= POSITION and yaw is not None and yaw <= YAW
     return on_plan and not summary.fell
 
 
-def row(name: str, summary: Summary) -> str:
+def row(name: str, summary: pw.Summary) -> str:
     """Return one line of the table."""
     x, y, z = (nan if e is None else 1e3 * e for e in summary.com_error_rms)
     position = 1e3 * (summary.final_position_error or 0.0)
@@ -157,7 +154,7 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes (default: all)")
     jobs = parser.parse_args().jobs
     work = list(studies())
-    done: dict[str, Summary] = {}
+    done: dict[str, pw.Summary] = {}
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         futures = {pool.submit(figures, call, args): name for name, call, args in work}
         for future in tqdm(as_completed(futures), total=len(work), unit="walk"):

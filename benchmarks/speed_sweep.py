@@ -26,9 +26,8 @@ from matplotlib.figure import Figure
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.analysis.summary import Summary
-from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.velocity import saturated
+from preview_walk.simulation.placing import gait_limits
 
 SHARES = [0.08 * k for k in range(1, 17)]
 """Speeds, as shares of the fastest within the limits."""
@@ -40,12 +39,12 @@ WITHIN = 0.05
 """A walk holds its speed when it is this share from it at most."""
 
 
-def fastest(limits: GaitLimits) -> float:
+def fastest(limits: pw.GaitLimits) -> float:
     """Return the forward speed (m/s) to which faster commands are scaled down."""
     return saturated((100.0, 0.0, 0.0), limits)[0]
 
 
-def walk_at(name: str, speed: float) -> Summary:
+def walk_at(name: str, speed: float) -> pw.Summary:
     """Return the figures of a robot that is commanded a forward speed (m/s)."""
     walk = pw.Walk.standing(pw.load_robot(name))
     limits = walk.limits
@@ -61,12 +60,12 @@ def walk_at(name: str, speed: float) -> Summary:
     return walk.run().record().summary()
 
 
-def holds(speed: float, summary: Summary) -> bool:
+def holds(speed: float, summary: pw.Summary) -> bool:
     """Tell whether a walk kept to its speed (m/s) and on its feet."""
     return not summary.fell and abs((summary.speed or 0.0) - speed) <= WITHIN * speed
 
 
-def draw(done: dict[float, Summary], name: str, out: str) -> None:
+def draw(done: dict[float, pw.Summary], name: str, out: str) -> None:
     """Draw error, torque and cost over the measured speed; walks that did not hold are hollow."""
     figure = Figure(figsize=(9, 10), layout="constrained")
     error, torque, cost = figure.subplots(3, 1, sharex=True)
@@ -101,9 +100,9 @@ def main() -> int:
     options = parser.parse_args()
 
     robot = pw.load_robot(options.robot)
-    top = fastest(pw.Walk.standing(robot).limits)
+    top = fastest(gait_limits(robot))
     speeds = [share * top for share in SHARES]
-    found: dict[float, Summary] = {}
+    found: dict[float, pw.Summary] = {}
     with ProcessPoolExecutor(options.jobs, mp_context=get_context("spawn")) as pool:
         futures = {pool.submit(walk_at, options.robot, speed): speed for speed in speeds}
         for future in tqdm(as_completed(futures), total=len(speeds), unit="walk"):

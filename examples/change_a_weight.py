@@ -9,7 +9,6 @@ from dataclasses import replace
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.tracking.gains import TrackingGains
 
 FACTORS = (0.2, 1.0, 5.0, 25.0)
 
@@ -23,7 +22,7 @@ def main() -> None:
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.8)
     plan = planner.generate_footsteps(8, ramp=2)
-    default = TrackingGains()
+    default = pw.TrackingGains()
 
     figure = Figure(figsize=(11, 5), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[2, 1])

@@ -9,8 +9,7 @@ from math import pi
 import numpy as np
 
 import preview_walk as pw
-from preview_walk.analysis import save_plot
-from preview_walk.planning.gaits import arc
+from preview_walk.simulation.placing import gait_limits
 
 RADIUS = 1.0
 
@@ -23,7 +22,7 @@ def main() -> None:
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.8)
-    plan = arc(RADIUS, 2.0 * pi, planner, limits=pw.Walk.standing(robot).limits, ramp=2)
+    plan = pw.arc(RADIUS, 2.0 * pi, planner, limits=gait_limits(robot), ramp=2)
     record = pw.simulate(robot, plan)
 
     # The circle lies to the left of the start, so its centre is at (0, 1) m. While the robot sways
@@ -36,7 +35,7 @@ def main() -> None:
     print(record.summary())
     print(f"{len(plan.steps)} steps; the CoM's mean path is {radius.mean():.3f} m from the centre,")
     print(f"between {radius.min():.3f} and {radius.max():.3f} m")
-    save_plot(record, "top_view", out)
+    pw.save_plot(record, "top_view", out)
     print(f"wrote {out}")
 
 

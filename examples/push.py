@@ -11,13 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.planning.support import Sole
 from preview_walk.simulation.plan_log import PlanRevision
 
 FORCE, DURATION = (150.0, 60.0, 0.0), 0.2  # N, forward and to the left; s
 
 
-def draw_soles(axes: Axes, plan: PlanRevision, sole: Sole, **style: Any) -> None:
+def draw_soles(axes: Axes, plan: PlanRevision, sole: pw.Sole, **style: Any) -> None:
     """Outline every sole of a plan."""
     for pose in plan.pose:
         corners = sole.corners(pose)
@@ -45,7 +44,7 @@ def main() -> None:
 
     figure = Figure(figsize=(12, 9), layout="constrained")
     top, forward, sideways = figure.subplots(3, 1, height_ratios=[1.2, 2, 2])
-    sole = Sole(*record.settings["sole"])
+    sole = pw.Sole(*record.settings["sole"])
     draw_soles(top, before, sole, color="0.6", linestyle="--")
     draw_soles(top, after, sole, color="tab:red")
     top.plot(*record.com[:, :2].T, color="tab:blue", label="CoM")

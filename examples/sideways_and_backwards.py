@@ -6,8 +6,7 @@ python examples/sideways_and_backwards.py --out sideways_and_backwards.png
 import argparse
 
 import preview_walk as pw
-from preview_walk.analysis import save_plot
-from preview_walk.planning.gaits import sideways, straight
+from preview_walk.simulation.placing import gait_limits
 from preview_walk.types import FEET
 
 
@@ -18,11 +17,11 @@ def main() -> None:
     out = parser.parse_args().out
 
     robot = pw.load_robot("talos")
-    limits = pw.Walk.standing(robot).limits
+    limits = gait_limits(robot)
     planner = pw.FootstepPlanner(step_length=0.2, step_width=robot.step_width, step_time=0.8)
-    plan = sideways(1.0, planner, limits=limits)
-    plan = straight(-1.0, planner, start=plan, limits=limits, ramp=1)
-    plan = sideways(-1.0, planner, start=plan, limits=limits)
+    plan = pw.sideways(1.0, planner, limits=limits)
+    plan = pw.straight(-1.0, planner, start=plan, limits=limits, ramp=1)
+    plan = pw.sideways(-1.0, planner, start=plan, limits=limits)
     record = pw.simulate(robot, plan)
 
     print(record.summary())
@@ -30,7 +29,7 @@ def main() -> None:
         end, planned = getattr(record, f"{foot}_foot")[-1], record.plans[-1].last_pose(foot)
         off = 1e3 * (end - planned)[:2, 3]
         print(f"{foot} sole ends ({off[0]:.1f}, {off[1]:.1f}) mm from where it was planned")
-    save_plot(record, "top_view", out)
+    pw.save_plot(record, "top_view", out)
     print(f"wrote {out}")
 
 

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import preview_walk as pw
 
-# Time (s) from which a forward speed (m/s) is commanded; chosen without a look at the steps.
-COMMANDS = [(0.9, 0.5), (6.3, 0.0), (9.7, -0.2), (14.2, 0.5), (18.05, 0.8), (23.3, 0.0)]
+# Forward speeds (m/s), and for how long (s) each is commanded; chosen without a look at the steps.
+SPEEDS = [(0.0, 0.9), (0.5, 5.4), (0.0, 3.4), (-0.2, 4.5), (0.5, 3.85), (0.8, 5.25), (0.0, 5.0)]
 
 
 def main() -> None:
@@ -21,11 +21,7 @@ def main() -> None:
     out = parser.parse_args().out
 
     robot = pw.load_robot("talos")
-    walk = pw.Walk.standing(robot)
-    for time, speed in COMMANDS:
-        walk.run(until=time)
-        walk.command(speed, 0.0, 0.0)
-    record = walk.run().record()
+    record = pw.simulate_commands(robot, [((v, 0.0, 0.0), seconds) for v, seconds in SPEEDS])
 
     print(record.summary())
     print(f"the plan changed {len(record.plans) - 1} times under way")
@@ -33,8 +29,8 @@ def main() -> None:
     figure = Figure(figsize=(11, 7), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True)
     t, x = record.time, record.com[:, 0]
-    starts, speeds = (np.array(c) for c in zip((0.0, 0.0), *COMMANDS, (t[-1], 0.0), strict=True))
-    above.step(starts, speeds, "k--", where="post", label="commanded")
+    edges = np.cumsum([0.0, *(seconds for _, seconds in SPEEDS)])
+    above.stairs([v for v, _ in SPEEDS], edges, color="k", linestyle="--", label="commanded")
     above.plot(t, record.com_velocity[:, 0], color="tab:blue", linewidth=0.8, label="CoM")
     above.set(ylabel="forward speed [m/s]")
     above.legend(loc="upper left")

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import preview_walk as pw
 from preview_walk.analysis.top_view import draw_top_view
-from preview_walk.planning.gaits import turn_in_place
+from preview_walk.simulation.placing import gait_limits
 
 
 def main() -> None:
@@ -22,7 +22,7 @@ def main() -> None:
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_width=robot.step_width, step_time=0.8)
-    plan = turn_in_place(2.0 * pi, planner, limits=pw.Walk.standing(robot).limits)
+    plan = pw.turn_in_place(2.0 * pi, planner, limits=gait_limits(robot))
     record = pw.simulate(robot, plan)
 
     drift = np.hypot(*(0.5 * (record.left_foot + record.right_foot)[-1, :2, 3]))

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.simulation.video import FPS, frames, render_video
+from preview_walk.simulation.video import FPS, frames
 
 COUNT = 6
 
@@ -26,7 +26,7 @@ def main() -> None:
     plan = planner.generate_footsteps(7, ramp=2)
     record = pw.simulate(robot, plan)
     print(record.summary())
-    render_video(record, robot, out)
+    pw.render_video(record, robot, out)
 
     # One stride in the middle of the walk: from a landing to the next but one.
     first, last = plan.steps[2].land, plan.steps[4].land

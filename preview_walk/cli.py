@@ -71,6 +71,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         complain("stopped by Ctrl-C.")
         return STOPPED
+    except ImportError as error:
+        missing = re.match(r"(lib[\w.+-]+): cannot open shared object file", str(error))
+        if missing is None:
+            traceback.print_exc()
+        else:
+            library = missing.group(1)
+            complain(f"{library} is missing; on Debian or Ubuntu sudo apt install libgomp1 helps.")
+        return BUG
     except Exception:
         traceback.print_exc()
         return BUG

@@ -118,7 +118,7 @@ def test_what_is_not_asked_for_the_simulation_decides(simulation: Simulation, ou
 
 
 def test_rates_and_solver_reach_the_simulation(simulation: Simulation, out: Path) -> None:
-    assert run(out, *"--physics-hz 2000 --control-hz 500 --solver daqp".split()) == 0
+    assert run(out, *["--physics-hz", "2000", "--control-hz", "500", "--solver", "daqp"]) == 0
     (call,) = simulation.calls
     assert (call["physics_hz"], call["control_hz"], call["solver"]) == (2000, 500, "daqp")
 
@@ -254,6 +254,17 @@ def test_an_unexpected_error_is_neither_a_fall_nor_bad_input(
     simulation.error = RuntimeError("surprise")
     assert run(out) == 3
     assert "RuntimeError: surprise" in capsys.readouterr().err
+
+
+def test_a_missing_library_of_the_system_is_told(
+    simulation: Simulation, out: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulation.error = ImportError("libgomp.so.1: cannot open shared object file: No such file")
+    assert run(out) == 3
+    assert complaint(capsys) == (
+        "preview-walk: libgomp.so.1 is missing; on Debian or Ubuntu sudo apt install libgomp1 "
+        "helps."
+    )
 
 
 def test_a_folder_that_cannot_be_made_is_told_before_the_walk(

@@ -69,7 +69,18 @@ def test_every_option_is_read() -> None:
 
 
 def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
-    options = parse("--velocity 0.3,0,0 --duration 4 --velocity -.2,0.1,90 --duration 2.5".split())
+    options = parse(
+        [
+            "--velocity",
+            "0.3,0,0",
+            "--duration",
+            "4",
+            "--velocity",
+            "-.2,0.1,90",
+            "--duration",
+            "2.5",
+        ]
+    )
     assert options.commands == (((0.3, 0.0, 0.0), 4.0), ((-0.2, 0.1, np.pi / 2), 2.5))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import mujoco
 import numpy as np
@@ -20,6 +20,7 @@ from preview_walk.robots.rebuild import rebuild
 from preview_walk.robots.robot import Blueprint, Robot, RobotSole
 from preview_walk.robots.soles import SolePatch, find_sole, sole_axes
 from preview_walk.robots.source import Source, foot_shapes
+from preview_walk.robots.statics import CROUCHED, straightened
 from preview_walk.robots.structure import Structure, find_structure
 from preview_walk.robots.tree import Tree
 from preview_walk.types import FEET, Array, Foot
@@ -59,19 +60,25 @@ def build_robot(description: Description, source: Source) -> Robot:
     seen_at, key = ({}, "") if description.posture else keyframe_angles(tree)
     settled += [f"arms and trunk as in the keyframe '{key}'"] if key else []
     resting_at = (seen_at, description.posture)
-    posture, legs = _posture(resting_at, parts, tree, mj, model, frames)
-    freed = _free_limits(mj, model, posture)
+    names = [str(name) for name in model.names[2:]]
+    effort = np.array([motors.get(name, 0.0) for name in names])
+    crouched, legs, width = _crouched(resting_at, parts, tree, mj, model, frames)
+    sole_frames = {foot: frames[foot].frame for foot in FEET}
+    posture = straightened(model, crouched, sole_frames, legs, width, effort)
+    freed = _free_limits(mj, model, (crouched, posture))
     low, high = _limits(mj)
     data = model.createData()
     com = pin.centerOfMass(model, data, posture)
     pin.framesForwardKinematics(model, data, posture)
+    if posture is not crouched:
+        stretch = data.oMi[legs["left"].hip].translation[2] / legs["left"].length
+        settled.append(f"stands straight, at {stretch:.2f} of the leg's length: the knees are weak")
     left, right = (data.oMf[frames[f].frame].translation for f in FEET)
     freed_note = (
         [f"joint limits ignored, as they forbid to stand with bent knees: {', '.join(freed)}"]
         if freed
         else []
     )
-    names = [str(name) for name in model.names[2:]]
     return Robot(
         name=description.name,
         title=description.title,
@@ -80,7 +87,7 @@ def build_robot(description: Description, source: Source) -> Robot:
         pin=model,
         soles=frames,
         torso=_torso_frame(model, data, tree.name(parts.torso)),
-        effort=np.array([motors.get(name, 0.0) for name in names]),
+        effort=effort,
         q_lower=low,
         q_upper=high,
         v_limit=np.array([source.speed.get(name, np.inf) for name in names]),
@@ -151,15 +158,15 @@ def set_limits(model: pin.Model, low: Array, high: Array) -> None:
     model.upperPositionLimit = np.concatenate([np.full(7, np.inf), high])
 
 
-def _posture(
+def _crouched(
     resting_at: tuple[Mapping[str, float], Mapping[str, float]],
     parts: Structure,
     tree: Tree,
     mj: mujoco.MjModel,
     model: pin.Model,
     soles: dict[Foot, RobotSole],
-) -> tuple[Array, dict[Foot, Leg]]:
-    """Return the walking posture (nq,) and the legs."""
+) -> tuple[Array, dict[Foot, Leg], float]:
+    """Return the most crouched walking posture (nq,), the legs, and the step width (m)."""
     rotation = tree.rotation(parts.base)
     forward, up = rotation.T @ parts.forward, rotation.T @ parts.up
     upright = np.vstack((forward, np.cross(up, forward), up))
@@ -180,14 +187,17 @@ def _posture(
     apart = data.oMf[soles["left"].frame].translation - data.oMf[soles["right"].frame].translation
     width = max(float(apart[1]), soles["left"].half_width + soles["right"].half_width + CLEARANCE)
     q = resting(model, q, *resting_at)
-    posture = walking_posture(model, q, {f: soles[f].frame for f in FEET}, legs, width)
-    return posture, legs
+    sole_frames = {foot: soles[foot].frame for foot in FEET}
+    return walking_posture(model, q, sole_frames, legs, width, CROUCHED), legs, width
 
 
-def _free_limits(mj: mujoco.MjModel, model: pin.Model, posture: Array) -> list[str]:
-    """Lift the limits that the posture breaks, in both models; return the joints' names."""
+def _free_limits(
+    mj: mujoco.MjModel, model: pin.Model, postures: Iterable[Array]
+) -> list[str]:
+    """Lift the limits that the postures break, in both models; return the joints' names."""
     low, high = _limits(mj)
-    broken = np.flatnonzero((posture[7:] < low) | (posture[7:] > high)).tolist()
+    q = np.array([posture[7:] for posture in postures])
+    broken = np.flatnonzero(((q < low) | (q > high)).any(axis=0)).tolist()
     for joint in broken:
         mj.jnt_limited[1 + joint] = 0
         low[joint], high[joint] = -np.inf, np.inf

@@ -18,6 +18,7 @@ from preview_walk.robots.posture import walking_posture
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.shapes import add_shapes
 from preview_walk.robots.source import read_source
+from preview_walk.robots.statics import carrying_torques
 from preview_walk.types import FEET, Array
 
 
@@ -146,23 +147,19 @@ def one_leg_torques(robot: Robot) -> Array:
     cannot lean so far.
     """
     model = robot.pin
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, robot.posture)
+    hip = float(data.oMi[robot.legs["left"].hip].translation[2])
     q = walking_posture(
         model,
         robot.posture,
         {foot: robot.soles[foot].frame for foot in FEET},
         robot.legs,
         robot.step_width,
+        hip / robot.leg_length,
         lean=robot.step_width / 2,
     )
-    data = model.createData()
-    gravity = pin.computeGeneralizedGravity(model, data, q)
-    pin.computeJointJacobians(model, data, q)
-    pin.updateFramePlacements(model, data)
-    jacobian = pin.getFrameJacobian(
-        model, data, robot.soles["left"].frame, pin.ReferenceFrame.LOCAL
-    )
-    wrench = np.linalg.solve(jacobian[:, :6].T, gravity[:6])
-    return np.asarray((gravity - jacobian.T @ wrench)[6:])
+    return carrying_torques(model, q, robot.soles["left"].frame)
 
 
 def one_leg_problems(robot: Robot) -> tuple[str, ...]:

@@ -12,9 +12,6 @@ import pinocchio as pin
 from preview_walk.errors import RobotError
 from preview_walk.types import FEET, Array, Foot
 
-STRETCH = 0.92
-"""Hip-to-sole distance of the walking posture over that of the stretched leg."""
-
 LATERAL = 0.8
 """Least cosine between a joint's axis and the lateral direction for it to bend the leg."""
 
@@ -130,7 +127,7 @@ def walking_posture(
     soles: Mapping[Foot, int],
     legs: Mapping[Foot, Leg],
     width: float,
-    stretch: float = STRETCH,
+    stretch: float,
     lean: float = 0.0,
 ) -> Array:
     """Return the walking posture (nq,) by inverse kinematics, the robot facing x.

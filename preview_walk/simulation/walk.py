@@ -20,6 +20,7 @@ from preview_walk.simulation.record import Record
 from preview_walk.simulation.recorder import Recorder
 from preview_walk.simulation.row import run_settings, tick_row
 from preview_walk.simulation.world import World, steps_per_tick
+from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.walker import Walker
 from preview_walk.types import FEET
@@ -199,13 +200,14 @@ class Walk:
         Ends early at a fall; Ctrl-C ends it too and is noted in the record.
         """
         try:
-            while not self.fallen:
-                end = self._end if until is None else until
-                if self.time >= end - 1e-9:
-                    break
-                self.tick()
-                if progress is not None and self._tick % 25 == 0:
-                    progress(self.time, end)
+            with one_thread():
+                while not self.fallen:
+                    end = self._end if until is None else until
+                    if self.time >= end - 1e-9:
+                        break
+                    self.tick()
+                    if progress is not None and self._tick % 25 == 0:
+                        progress(self.time, end)
         except KeyboardInterrupt:
             self._interrupted = True
         return self

@@ -45,8 +45,8 @@ class Solution:
     """What a backend returned for a tick.
 
     `acceleration` (nv,), `wrench` (nf,) and joint `torques` (n,), in SI units; whether it `solved`
-    the QP; its `iterations` (0: no limit or edge of a contact was reached, so none were needed); in words, its
-    `status`.
+    the QP; its `iterations` (0: no limit or edge of a contact was reached, so that none were
+    needed); in words, its `status`.
     """
 
     acceleration: Array

@@ -70,15 +70,17 @@ def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Ar
     return rows, low, high
 
 
-def load_shares(zmp: Array, first: Array, second: Array) -> tuple[float, float]:
-    """Return the shares of the load on soles at `first` and `second` (2,) for a ZMP (2,) wanted.
+def load_shares(
+    zmp: Sequence[float], first: Sequence[float], second: Sequence[float]
+) -> tuple[float, float]:
+    """Return the shares of the load on soles at `first` and `second` for a ZMP wanted (x, y each).
 
     The lever rule: with these shares the ZMP lies where it is wanted without any moment under the
     soles, and the load leaves a sole before it lifts and comes upon it after it has landed.
     """
-    x, y = (second - first).tolist()
-    px, py = (zmp - first).tolist()
+    x, y = second[0] - first[0], second[1] - first[1]
     distance = x * x + y * y
-    share = (px * x + py * y) / distance if distance > 0.0 else 0.5
+    along = (zmp[0] - first[0]) * x + (zmp[1] - first[1]) * y
+    share = along / distance if distance > 0.0 else 0.5
     share = min(1.0 - MIN_SHARE, max(MIN_SHARE, share))
     return 1.0 - share, share

@@ -53,7 +53,7 @@ class Dynamics:
     - `com`, `com_velocity` (3,) in the world; `com_jacobian` (3, nv) and `com_drift` (3,): the
       CoM's acceleration is com_jacobian @ a + com_drift.
     - `momentum_jacobian` (3, nv) and `momentum_drift` (3,): of the angular momentum about the CoM,
-      in world axes; call `update_momentum` first.
+      in world axes, and of its rate; for the drift call `update_momentum` first.
     - `feet`: `FrameTerms` of the soles; `torso`: of the trunk; `frame(name)`: of any other.
     """
 
@@ -75,12 +75,12 @@ class Dynamics:
         self.com_velocity: Array = np.zeros(3)
         self.com_jacobian: Array = np.zeros((3, nv))
         self.com_drift: Array = np.zeros(3)
-        self.momentum_jacobian: Array = np.zeros((3, nv))
+        self.momentum_jacobian: Array = data.Ag[3:]
         self.momentum_drift: Array = np.zeros(3)
         self._nle: Array = data.nle
         self._base_rotation: Array = data.oMi[1].rotation
         self._base_position: Array = data.oMi[1].translation
-        self._spatial_momentum: Array = data.Ag
+        self._linear_momentum: Array = data.Ag[:3]
         self._frames: dict[int, FrameTerms] = {}
         self.feet: dict[Foot, FrameTerms] = {
             foot: self._add(robot.soles[foot].frame) for foot in FEET
@@ -112,8 +112,8 @@ class Dynamics:
         model, data = self.model, self.data
         self.q, self.v = q, v
         # In Pinocchio's world convention these three calls leave behind all that the tasks need:
-        # the mass matrix, the spatial momentum's matrix, the CoM and the joints' Jacobians (crba),
-        # the bias forces, and the joints' velocities and drifts.
+        # the mass matrix, the matrix of the momentum about the CoM, the CoM and the joints'
+        # Jacobians (crba), the bias forces, and the joints' velocities and drifts.
         pin.crba(model, data, q, _WORLD)
         pin.nonLinearEffects(model, data, q, v)
         pin.forwardKinematics(model, data, q, v, self._still)
@@ -121,22 +121,19 @@ class Dynamics:
             terms.update(model, data)
         np.multiply(self._damping, v, out=self.bias)
         self.bias += self._nle
-        # The spatial momentum's linear rows are m J_com; the base's linear rows of the dynamics
-        # are Newton's law for the whole robot, in base axes.
-        np.multiply(self._spatial_momentum[:3], self._over_mass, out=self.com_jacobian)
+        # Linear momentum is m J_com @ v; the base's linear rows of the dynamics are Newton's law
+        # for the whole robot, in base axes.
+        np.multiply(self._linear_momentum, self._over_mass, out=self.com_jacobian)
         np.matmul(self._base_rotation, self._nle[:3], out=self.com_drift)
         self.com_drift *= self._over_mass
         self.com_drift += self._gravity
         self.com_velocity = self.com_jacobian @ v
 
     def update_momentum(self) -> None:
-        """Compute `momentum_jacobian` and `momentum_drift`; only a momentum task needs them.
+        """Compute `momentum_drift`; only a momentum task needs it.
 
-        Both are moved to the CoM: from the world's origin the Jacobian, from the base's origin the
-        moments, that of gravity about the CoM being zero.
+        The base's rows of the bias, moved to the CoM, about which gravity has no moment.
         """
-        momentum = self._spatial_momentum
-        np.subtract(momentum[3:], pin.skew(self.com) @ momentum[:3], out=self.momentum_jacobian)
         rotation, lever = self._base_rotation, self.com - self._base_position
         force, moment = rotation @ self._nle[:3], rotation @ self._nle[3:6]
         np.subtract(moment, np.cross(lever, force), out=self.momentum_drift)

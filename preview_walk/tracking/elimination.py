@@ -20,8 +20,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg.blas import dtrsv
-from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri, dtrtrs
+from scipy.linalg.blas import dtrsm, dtrsv
+from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
 
 from preview_walk.tracking.problem import LIMIT_WEIGHT, TickProblem
 from preview_walk.types import Array
@@ -98,7 +98,8 @@ class Elimination:
         self._lower = _cholesky(self._matrix)
         self._solved = dtrsv(self._lower, residual, lower=1)
         corner = self._lower[-self._tail :, -self._tail :]
-        self._response = dtrtrs(corner, self._map, lower=1)[0] if self.size else self._map
+        # Not dtrtrs: OpenBLAS starts threads for it, which wait for each other longer than a tick.
+        self._response = dtrsm(1.0, corner, self._map, lower=1) if self.size else self._map
         hessian = self._response.T @ self._response
         hessian.reshape(-1)[: p.nf * self.size : self.size + 1] += p.wrench_weight
         self.factor = _cholesky(hessian)

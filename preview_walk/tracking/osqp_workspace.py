@@ -9,6 +9,8 @@ solve starts from.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import osqp
 import scipy.sparse as sparse
@@ -50,22 +52,30 @@ class OsqpWorkspace:
         self._high: Array = np.full(rows, INFINITY)
         # Transposed, and thus in the order in which OSQP keeps the entries of a full matrix.
         self._constraints: Array = np.zeros((size, rows))
-        self._solver = osqp.OSQP()
-        self._solver.setup(
+        self._max_iterations = max_iterations
+        self._solver: Any = None  # set up when first needed: most ticks do not
+
+    def _set_up(self) -> Any:
+        size, rows = self._constraints.shape
+        solver = osqp.OSQP()
+        solver.setup(
             sparse.identity(size, format="csc"),
             np.zeros(size),
             sparse.csc_matrix(np.ones((rows, size))),
             self._low,
             self._high,
-            max_iter=max_iterations,
+            max_iter=self._max_iterations,
             **SETTINGS,
         )
+        return solver
 
     def solve(self, multipliers: Array) -> tuple[Array, Array] | None:
         """Return w and its multipliers (one per constraint), or None when not converged.
 
         `multipliers`: a guess to start from; the better, the faster.
         """
+        if self._solver is None:
+            self._solver = self._set_up()
         e, solver = self.elimination, self._solver
         inverse = inverse_factor(e.factor)
         constraints = np.matmul(inverse, e.constraints.T, out=self._constraints)

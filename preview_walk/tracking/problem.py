@@ -57,6 +57,7 @@ class TickProblem:
     - `rows` (m, nv), `target` (m,), `slack` (m,): rows @ a = target, each at the inverse weight
       `slack`, in the order tasks, contacts, base; slack 0 is an equality. The base's rows
       (last six) have `wrench_map` (6, nf) @ f on their right-hand side.
+    - `contact_jacobian` (nf, nv): those of the rows that are the contacts'.
     - `prior` (nv,), `prior_weight` (nv,): the accelerations drawn to, the posture's.
     - `wrench_weight` (nf,) per N^2 or (N·m)^2.
     - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
@@ -131,7 +132,7 @@ class TickProblem:
             wanted = self._contact_target[span]
             np.multiply(terms.velocity, -BRAKE, out=wanted)
             wanted -= terms.drift
-            self._normal_high[k] = normal_limit[foot]
+            self._normal_high[k] = max(0.0, normal_limit[foot])
             np.divide(self._wrench_weight[span], shares[k], out=self.wrench_weight[span])
         self._base_rows[:] = dynamics.mass[:6]
         np.negative(dynamics.bias[:6], out=self._base_target)

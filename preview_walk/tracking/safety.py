@@ -19,8 +19,14 @@ from preview_walk.errors import PreviewWalkError
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.backends import Solution
 from preview_walk.tracking.dynamics import Dynamics
-from preview_walk.tracking.problem import TickProblem
-from preview_walk.types import Array
+from preview_walk.tracking.problem import (
+    BASE_WEIGHT,
+    BRAKE,
+    CONTACT_WEIGHT,
+    WRENCH_UNIT,
+    TickProblem,
+)
+from preview_walk.types import Array, Foot
 
 SOLVED, LAST_SOLUTION, DAMPED_POSTURE = 0, 1, 2
 """Status codes, as `WholeBodyController.status` and `qp_status` of a record hold them."""
@@ -92,29 +98,44 @@ class Fallback:
         if self._last is not None and self._row <= STALE_TICKS:
             self.status = LAST_SOLUTION
             before, last = self._last
-            wrench = np.zeros(problem.nf)
-            for k, foot in enumerate(problem.contacts):
-                if foot in before.contacts:
-                    at = 6 * before.contacts.index(foot)
-                    wrench[6 * k : 6 * k + 6] = last.wrench[at : at + 6]
-            return _stand_in(problem, last.acceleration, wrench, "last solution")
+            wrench = _for_contacts(problem, before.contacts, last.wrench)
+            torques = problem.forces(last.acceleration, wrench)[6:]
+            return Solution(last.acceleration, wrench, torques, False, 0, "last solution")
         self.status = DAMPED_POSTURE
         return self._damped(problem, dynamics)
 
     def _damped(self, problem: TickProblem, dynamics: Dynamics) -> Solution:
+        """Return accelerations that hold the joints while the soles stay, and least wrenches.
+
+        The soles are those that stood when a tick was last solved.
+        """
         q, v = dynamics.q[7:], dynamics.v[6:]
         if self._held is None:
             self._held = q.copy()
-        acceleration = np.zeros(problem.nv)
-        acceleration[6:] = HOLD**2 * (self._held - q) - 2.0 * HOLD * v
-        wrench = np.zeros(problem.nf)
-        if problem.nf:
-            needed = problem.forces(acceleration, wrench)[:6]
-            to_base = problem.wrench_map * problem.unit
-            wrench = np.linalg.lstsq(to_base, needed, rcond=None)[0] * problem.unit
-        return _stand_in(problem, acceleration, wrench, "damped posture")
+        contacts = problem.contacts if self._last is None else self._last[0].contacts
+        soles = [dynamics.feet[foot] for foot in contacts]
+        jacobian = np.vstack([np.zeros((0, problem.nv)), *(sole.jacobian for sole in soles)])
+        stay = np.concatenate([[], *(-sole.drift - BRAKE * sole.velocity for sole in soles)])
+        weights = np.concatenate([np.full(6, BASE_WEIGHT), np.ones(problem.n)])
+        wanted = np.zeros(problem.nv)
+        wanted[6:] = HOLD**2 * (self._held - q) - 2.0 * HOLD * v
+        acceleration = np.linalg.solve(
+            CONTACT_WEIGHT * jacobian.T @ jacobian + np.diag(weights),
+            CONTACT_WEIGHT * jacobian.T @ stay + weights * wanted,
+        )
+        forces = problem.forces(acceleration, np.zeros(problem.nf))
+        unit = np.tile(WRENCH_UNIT, len(contacts))
+        wrench = np.linalg.lstsq(jacobian[:, :6].T * unit, forces[:6], rcond=None)[0] * unit
+        torques = (forces - wrench @ jacobian)[6:]
+        wrench = _for_contacts(problem, contacts, wrench)
+        return Solution(acceleration, wrench, torques, False, 0, "damped posture")
 
 
-def _stand_in(problem: TickProblem, acceleration: Array, wrench: Array, status: str) -> Solution:
-    torques = problem.forces(acceleration, wrench)[6:]
-    return Solution(acceleration, wrench, torques, False, 0, status)
+def _for_contacts(problem: TickProblem, contacts: tuple[Foot, ...], wrench: Array) -> Array:
+    """Return the wrenches (nf,) of a problem's contacts out of those of others, or zeros."""
+    result = np.zeros(problem.nf)
+    for k, foot in enumerate(problem.contacts):
+        if foot in contacts:
+            at = 6 * contacts.index(foot)
+            result[6 * k : 6 * k + 6] = wrench[at : at + 6]
+    return result

@@ -166,12 +166,12 @@ class WholeBodyController:
         """Return the share of the load on each contact, from the ZMP that the CoM task asks for."""
         if len(contacts) < 2:
             return (1.0,) * len(contacts)
-        dynamics, acceleration = self.dynamics, self.com.acceleration
-        left, right = (dynamics.feet[foot].position for foot in contacts)
-        height = dynamics.com[2] - 0.5 * (left[2] + right[2])
-        lever = height / max(self._gravity + acceleration[2], 0.1 * self._gravity)
-        zmp = dynamics.com[:2] - lever * acceleration[:2]
-        return load_shares(zmp, left[:2], right[:2])
+        x, y, z = self.dynamics.com.tolist()
+        ax, ay, az = self.com.acceleration.tolist()
+        left, right = (self.dynamics.feet[foot].position.tolist() for foot in contacts)
+        height = z - 0.5 * (left[2] + right[2])
+        lever = height / max(self._gravity + az, 0.1 * self._gravity)
+        return load_shares((x - lever * ax, y - lever * ay), left, right)
 
     def _solve(self, problem: TickProblem) -> Solution:
         """Return the backend's solution, or what stands in for it."""
