@@ -15,10 +15,10 @@ from preview_walk.planning.pose import compose, heading_of, midfeet, pose_at
 from preview_walk.planning.support import Sole, support_margin, support_polygon
 from preview_walk.types import Array, Foot, other
 
-SHORT_PAUSE = 0.06
+SHORT_PAUSE = 0.035
 """Double support (s) after a changed step: the next one cannot wait."""
 
-UNLOAD = 0.05
+UNLOAD = 0.03
 """Time (s) in which a foot that stands is freed of its load before it lifts."""
 
 

@@ -35,13 +35,16 @@ OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT = 100.0, 1.0, 
 ZMP, and of the offset that the ZMP of the next step can carry: the rest of the offset comes first.
 """
 
+KEEP_WEIGHT, KEEP_TIME = 2.0, 2.0
+"""Squared metres and seconds by which a changed step changes again: the foot cannot dither."""
+
 CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
 
-SWING_SHARE, ACCELERATION_SHARE, COAST_SHARE = 0.53, 0.173, 0.2
+SPEED_SHARE, PULL_SHARE = (0.53, 0.07), (0.173, 0.45)
 """A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its top
-acceleration times that squared; a foot under way gets further by a share of its speed times the
-time left."""
+acceleration times that squared; a foot under way gets further by the second shares of its speed
+times the time left."""
 
 TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
@@ -137,24 +140,25 @@ def _best(
     side = 1.0 if step.foot == "left" else -1.0
     gait = limits.gait
     goal = (nominal.pose[:2, 3] - origin) @ axes
+    current = (step.pose[:2, 3] - origin) @ axes
     offset = (planned[1] - step.pose[:2, 3]) @ axes
     start = (dcm - origin) @ axes
     now, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
 
     first = max(t + LATEST, step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
-    land = np.append(np.linspace(first, last, TIMES), max(nominal.land, first))
+    land = np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), max(step.land, first)))
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
     left = (land - t)[:, None]
-    span = np.minimum(
-        SWING_SHARE * limits.swing_speed * left, ACCELERATION_SHARE * limits.swing_pull * left**2
-    )
-    now = now + COAST_SHARE * speed * left
+    slow = limits.swing_speed * SPEED_SHARE[0] * left
+    weak = limits.swing_pull * PULL_SHARE[0] * left**2
+    ahead = np.minimum(slow + SPEED_SHARE[1] * speed * left, weak + PULL_SHARE[1] * speed * left)
+    behind = np.minimum(slow - SPEED_SHARE[1] * speed * left, weak - PULL_SHARE[1] * speed * left)
     reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
-    place_low = np.clip(now - span, reach_low, reach_high)
-    place_high = np.clip(now + span, reach_low, reach_high)
+    place_low = np.clip(now - behind, reach_low, reach_high)
+    place_high = np.clip(now + ahead, reach_low, reach_high)
 
     # foothold + offset' = start tau - (mean + delta) (tau - 1): the DCM at landing.
     free = start * tau - mean * (tau - 1.0)
@@ -163,10 +167,10 @@ def _best(
     place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
     carry = np.zeros_like(free)
     room = CARRY * np.array(limits.zmp)
-    w, s, z, c = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT
+    w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
     for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
-            (w * (free - lever * delta - offset - carry) + s * goal) / (w + s), place_low, place_high
+            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k), place_low, place_high
         )
         delta = np.clip(
             w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high
@@ -174,7 +178,8 @@ def _best(
         carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), -room, room)
     miss = free - lever * delta - offset - carry - place
     cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
-    cost += TIME_WEIGHT * (land - nominal.land) ** 2
+    cost += k * ((place - current) ** 2).sum(axis=1)
+    cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
     x, y = place[best].tolist()
     heading = heading_of(stance)

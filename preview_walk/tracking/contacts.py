@@ -15,7 +15,7 @@ import numpy as np
 from preview_walk.robots.robot import RobotSole
 from preview_walk.types import Array
 
-COP_MARGIN = 0.1
+COP_MARGIN = 0.05
 """Share of the sole's half size, at each edge, that the centre of pressure keeps clear of."""
 
 MIN_SHARE = 0.01

@@ -19,7 +19,7 @@ class TrackingGains:
     - `wrench_weight`: regularises the contact wrenches (per (100 N)^2).
     """
 
-    dcm: float = 6.0
+    dcm: float = 10.0
     height: float = 10.0
     foot: float = 25.0
     torso: float = 12.0

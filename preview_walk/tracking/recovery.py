@@ -22,7 +22,7 @@ SWING_PULL = 25.0
 EARLY = 0.03
 """A foot that touches down earlier than planned by more than this (s) has landed where it is."""
 
-HOLD = 0.9
+HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
 
 
@@ -39,12 +39,12 @@ class Recovery:
                 gait,
                 forward=0.7 * leg,
                 backward=0.5 * leg,
-                max_width=robot.step_width + 0.45 * leg,
+                max_width=robot.step_width + 0.47 * leg,
             ),
             omega,
             (HOLD * half.half_length, HOLD * half.half_width),
             (1.1 * pendulum, 3.5 * pendulum),
-            2.8 * float(np.sqrt(leg)),
+            4.0 * float(np.sqrt(leg)),
             SWING_PULL,
             TOLERANCE * leg,
         )

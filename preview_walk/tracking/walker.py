@@ -28,7 +28,11 @@ SWING_HEIGHT = 0.06
 CONTACT_FORCE = 0.03
 """A sole counts as on the ground when it carries this share of the weight."""
 
-RAMP_TIME = 0.03
+LEAN = 0.04
+"""How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
+give, trunk and arms do by their angular momentum."""
+
+RAMP_TIME = 0.02
 """Shortest time (s) over which a new contact may take its full load."""
 
 
@@ -63,6 +67,8 @@ class Walker:
         self.body.update(q, np.zeros(robot.pin.nv))
         half = robot.soles["left"]
         self.sole = Sole(half.half_length, half.half_width)
+        lean = LEAN * robot.leg_length
+        self._reach = Sole(half.half_length + lean, half.half_width + lean)
         self.swing_height = SWING_HEIGHT * robot.leg_length
         self.pattern = WalkingPattern(
             plan,
@@ -149,7 +155,7 @@ class Walker:
         soles = [self.body.dynamics.feet[f] for f in FEET if self.feet[f].contact]
         poses = [_pose(terms) for terms in soles]
         if poses:
-            zmp = nearest_inside(support_polygon(poses, self.sole), zmp + shift) - shift
+            zmp = nearest_inside(support_polygon(poses, self._reach), zmp + shift) - shift
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
         h = self.gains.height
