@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
@@ -90,6 +91,7 @@ class Walk:
         self.world = World(robot, model, physics_hz, friction, pushes)
         q = standing_configuration(robot, plan)
         self.world.place(q)
+        self.world.data.time = plan.start
         self.walker = Walker(robot, plan, q, friction, gains, solver)
         self.limits = gait_limits(robot)
         self._command = (0.0, 0.0, 0.0)
@@ -110,6 +112,7 @@ class Walk:
                 friction=friction,
                 seed=seed,
                 solver=solver,
+                gains=asdict(self.walker.gains),
             ),
             {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
         )
@@ -163,6 +166,7 @@ class Walk:
         Raises:
             InvalidInput: a number is not finite.
         """
+        saturated((vx, vy, wz), self.limits)  # refuses what cannot be before anything changes
         self._command = (vx, vy, wz)
         self._obey()
 
@@ -201,7 +205,7 @@ class Walk:
         """
         try:
             with one_thread():
-                while not self.fallen:
+                while not (self.fallen or self._interrupted):
                     end = self._end if until is None else until
                     if self.time >= end - 1e-9:
                         break
