@@ -12,11 +12,11 @@ import numpy as np
 
 from preview_walk.planning.cart_table import GRAVITY
 from preview_walk.planning.com_height import LegGeometry, wanted_heights
+from preview_walk.planning.dcm import planned_dcm
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.preview_controller import ComState, PreviewController
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.zmp_trajectory import Sole, zmp_reference
-from preview_walk.planning.dcm import planned_dcm
 from preview_walk.types import FEET, Array
 
 PLANNING_DT = 0.005

@@ -13,7 +13,8 @@ from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.recorder import package_versions
 from preview_walk.simulation.world import World
 from preview_walk.tracking.dynamics import FrameTerms
-from preview_walk.tracking.walker import CONTACT_FORCE, Walker
+from preview_walk.tracking.feet import CONTACT_FORCE
+from preview_walk.tracking.walker import Walker
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
 NO_CONTACT = -1
