@@ -191,9 +191,7 @@ def _crouched(
     return walking_posture(model, q, sole_frames, legs, width, CROUCHED), legs, width
 
 
-def _free_limits(
-    mj: mujoco.MjModel, model: pin.Model, postures: Iterable[Array]
-) -> list[str]:
+def _free_limits(mj: mujoco.MjModel, model: pin.Model, postures: Iterable[Array]) -> list[str]:
     """Lift the limits that the postures break, in both models; return the joints' names."""
     low, high = _limits(mj)
     q = np.array([posture[7:] for posture in postures])

@@ -75,7 +75,8 @@ class WalkingController:
             forces (nan in flight), "left_foot" and "right_foot" (N, 3), the centres of the soles,
             "left_force" and "right_force" (N,), the normal forces. Planned: "com_ref" (N, 3),
             "zmp_ref" (N, 2), "left_foot_ref" and "right_foot_ref" (N, 3), and "phase" (N,):
-            0 double support, 1 left support, 2 right support. Commanded: "torque" (N, n).
+            0 double support, 1 left support, 2 right support. Commanded: "torque" (N, n) in N·m, a
+            column for each of `robot.joint_names`.
 
         Raises:
             InvalidInput: n_steps is not an integer >= 0, dt is not a multiple of the model's

@@ -37,7 +37,7 @@ def test_the_default_walk_is_within_its_bars(default_walk: Record) -> None:
     assert summary.steps == 20
     assert summary.speed == pytest.approx(0.25 / 0.9, rel=0.02)
     assert summary.torque_ratio_max is not None
-    assert summary.torque_ratio_max <= 0.7
+    assert summary.torque_ratio_max <= 0.85
     assert len(default_walk.plans) == 1  # no step was moved: nobody pushed
     assert default_walk.com[-1, 0] == pytest.approx(4.25, abs=0.02)
 
@@ -168,8 +168,7 @@ def test_walks_at_0_8_metres_a_second(talos: Robot) -> None:
     record = pw.simulate(talos, planner.generate_footsteps(20, ramp=5))
     summary = record.summary()
     assert not summary.fell
-    assert summary.speed is not None
-    assert summary.speed > 0.79
+    assert summary.speed == pytest.approx(0.5 / 0.62, rel=0.03)
     # It ends where it was sent, not just where the last revision of the plan says.
     for foot in FEET:
         end = getattr(record, f"{foot}_foot")[-1]
