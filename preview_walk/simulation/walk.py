@@ -160,8 +160,8 @@ class Walk:
         """Walk at this velocity from now on, until another command; zeros stop the walk.
 
         `vx` (forward) and `vy` (left) in m/s, `wz` (yaw rate, left positive) in rad/s, in the
-        frame of the walking robot; scaled down to what its legs can do. The plan always ends in a
-        stand, so a walk that nobody commands any more stops safely. May be called at any moment.
+        frame of the walking robot; scaled down to what its legs can do. It holds until the next
+        command; the plan of every instant ends in a stand. May be called at any moment.
 
         Raises:
             InvalidInput: a number is not finite.
@@ -202,7 +202,15 @@ class Walk:
         """Go on to time `until` (s; default: until it has stood for a while after the plan).
 
         Ends early at a fall; Ctrl-C ends it too and is noted in the record.
+
+        Raises:
+            InvalidInput: no `until` while a command is in force, which would be a walk for ever.
         """
+        if until is None and any(self._command) and not self._schedule:
+            raise InvalidInput(
+                "until must be given while a command is in force, "
+                f"got a walk at {self._command} for ever; command(0, 0, 0) stops it."
+            )
         try:
             with one_thread():
                 while not (self.fallen or self._interrupted):
