@@ -134,6 +134,6 @@ class Feet:
 
 def sole_pose(terms: FrameTerms) -> Array:
     """Return the measured pose (4, 4) of a sole in the world."""
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = terms.rotation, terms.position
+    pose = np.zeros((4, 4))
+    pose[:3, :3], pose[:3, 3], pose[3, 3] = terms.rotation, terms.position, 1.0
     return pose

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
-from preview_walk.planning.dcm import nearest_inside
+from preview_walk.planning.dcm import within_support
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.pattern import ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
-from preview_walk.planning.support import Sole, support_polygon
+from preview_walk.planning.support import Sole
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.feet import Feet, sole_pose
@@ -106,10 +106,9 @@ class Walker:
         away = (com + velocity / omega) - (reference.com + reference.velocity / omega)[:2]
         zmp = cart + (1.0 + k / omega) * away
         shift = reference.zmp - cart
-        soles = [self.body.dynamics.feet[f] for f in FEET if self.feet[f].contact]
-        poses = [sole_pose(terms) for terms in soles]
-        if poses:
-            zmp = nearest_inside(support_polygon(poses, self._reach), zmp + shift) - shift
+        soles = [sole_pose(dynamics.feet[f]) for f in FEET if self.feet[f].contact]
+        if soles:
+            zmp = within_support(zmp + shift, soles, self._reach) - shift
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
         h = self.gains.height
