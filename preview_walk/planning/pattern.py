@@ -12,11 +12,11 @@ import numpy as np
 
 from preview_walk.planning.cart_table import GRAVITY
 from preview_walk.planning.com_height import LegGeometry, wanted_heights
+from preview_walk.planning.dcm import planned_dcm
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.preview_controller import ComState, PreviewController
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.zmp_trajectory import Sole, zmp_reference
-from preview_walk.planning.dcm import planned_dcm
 from preview_walk.types import FEET, Array
 
 PLANNING_DT = 0.005
@@ -95,7 +95,8 @@ class WalkingPattern:
         self._first = self._tick
         n = self.controller.n_preview
         rest = max(0, int(np.ceil((plan.end - self._start) / PLANNING_DT)) - self._tick)
-        times = self._start + PLANNING_DT * (self._tick + np.arange(rest + n + 2))
+        ticks = np.arange(self._tick, self._tick + rest + n + 2, dtype=np.float64)
+        times = self._start + PLANNING_DT * ticks
         self._reference = self._zmp.at(times)
         self._shift = swing_zmp_shift(plan, times, self._momentum, self._swing_height)
         self._samples = self._reference - self._shift

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from preview_walk.planning.com_height import LegGeometry
-from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.dcm import nearest_inside
+from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.pattern import ComReference, WalkingPattern
 from preview_walk.planning.pose import pose_at, yaw_of
-from preview_walk.planning.swing_trajectory import Swing
 from preview_walk.planning.support import Sole, support_polygon
+from preview_walk.planning.swing_trajectory import Swing
 from preview_walk.robots.posture import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics, FrameTerms
@@ -31,6 +31,10 @@ CONTACT_FORCE = 0.03
 LEAN = 0.04
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
 give, trunk and arms do by their angular momentum."""
+
+BOUNCE = 2.5
+"""Largest acceleration (m/s^2) that the height's feedback asks for: a robot that bounces has no
+force left to steer with."""
 
 RAMP_TIME = 0.02
 """Shortest time (s) over which a new contact may take its full load."""
@@ -118,15 +122,15 @@ class Walker:
             if step is not None and step.foot == foot:
                 if state.swing is None or state.swing.lift != step.lift:
                     terms = self.body.dynamics.feet[foot]
-                    start = pose_at(*terms.position[:2].tolist(), _yaw(terms.rotation), terms.position[2])
-                    state.swing = Swing(
-                        start, step.pose, step.lift, step.land, self.swing_height
-                    )
+                    x, y, z = terms.position.tolist()
+                    start = pose_at(x, y, _yaw(terms.rotation), z)
+                    state.swing = Swing(start, step.pose, step.lift, step.land, self.swing_height)
                     state.contact = False
                 late = (t - step.lift) / (step.land - step.lift) > 0.6
                 if not state.contact and late and touching:
                     state.contact, state.since = True, t
-                    self.recovery.touched_down(t, foot, self.pattern, _pose(self.body.dynamics.feet[foot]))
+                    touched = _pose(self.body.dynamics.feet[foot])
+                    self.recovery.touched_down(t, foot, self.pattern, touched)
                 if state.swing.end is not step.pose or state.swing.land != step.land:
                     state.swing = state.swing.retarget(t, step.pose, step.land)
                 state.pose, task.velocity, task.acceleration = state.swing.at(t)
@@ -159,7 +163,8 @@ class Walker:
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
         h = self.gains.height
-        acceleration[2] = reference.acceleration[2] + 2.0 * h * rate[2] + h * h * error[2]
+        back = 2.0 * h * rate[2] + h * h * error[2]
+        acceleration[2] = reference.acceleration[2] + min(max(back, -BOUNCE), BOUNCE)
         self.body.com.acceleration = acceleration
 
     def _track_torso(self, t: float) -> None:
