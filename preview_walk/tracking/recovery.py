@@ -22,7 +22,7 @@ SWING_PULL = 25.0
 EARLY = 0.03
 """A foot that touches down earlier than planned by more than this (s) has landed where it is."""
 
-AHEAD = 0.05
+AHEAD = 0.025
 """Time (s) for which the error of the DCM is extrapolated: the push that made it still lasts."""
 
 HOLD = 0.95

@@ -32,10 +32,6 @@ LEAN = 0.04
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
 give, trunk and arms do by their angular momentum."""
 
-BOUNCE = 2.5
-"""Largest acceleration (m/s^2) that the height's feedback asks for: a robot that bounces has no
-force left to steer with."""
-
 RAMP_TIME = 0.02
 """Shortest time (s) over which a new contact may take its full load."""
 
@@ -163,8 +159,7 @@ class Walker:
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
         h = self.gains.height
-        back = 2.0 * h * rate[2] + h * h * error[2]
-        acceleration[2] = reference.acceleration[2] + min(max(back, -BOUNCE), BOUNCE)
+        acceleration[2] = reference.acceleration[2] + 2.0 * h * rate[2] + h * h * error[2]
         self.body.com.acceleration = acceleration
 
     def _track_torso(self, t: float) -> None:
