@@ -40,6 +40,7 @@ class Footstep:
         lift: time (s) at which the foot leaves the ground.
         land: time (s) at which the sole is down at `pose`.
         type: "swing_end" for a step; "stance" for the two soles a plan starts on (lift == land).
+        again: whether the foot that stepped last may step again at once, as after a push.
 
     Raises:
         InvalidInput: unknown foot or type, no pose, or times that are not finite and in order.
@@ -50,6 +51,7 @@ class Footstep:
     lift: float
     land: float
     type: Literal["stance", "swing_end"] = "swing_end"
+    again: bool = False
 
     def __post_init__(self) -> None:
         if self.foot not in FEET:
@@ -159,7 +161,7 @@ class FootstepPlan(Sequence[Footstep]):
                 f"got a lift at {step.lift:.3f} s."
             )
         pause = step.lift - before.land
-        if number > 1 and step.foot == before.foot and not self.is_stand(pause):
+        if number > 1 and step.foot == before.foot and not (step.again or self.is_stand(pause)):
             raise InvalidInput(
                 f"step {number} must be taken by the {other(step.foot)} foot, because step "
                 f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "

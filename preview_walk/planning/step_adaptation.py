@@ -42,8 +42,8 @@ CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
 
 SPEED_SHARE, PULL_SHARE = (0.53, 0.07), (0.173, 0.45)
-"""A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its top
-acceleration times that squared; a foot under way gets further by the second shares of its speed
+"""A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its
+top acceleration times that squared; a foot under way gets further by the second shares of its speed
 times the time left."""
 
 TOLERANCE = 0.03
@@ -147,7 +147,9 @@ def _best(
 
     first = max(t + LATEST, step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
-    land = np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), max(step.land, first)))
+    land = np.append(
+        np.linspace(first, last, TIMES), (max(nominal.land, first), max(step.land, first))
+    )
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
     left = (land - t)[:, None]
@@ -170,7 +172,9 @@ def _best(
     w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
     for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
-            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k), place_low, place_high
+            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
+            place_low,
+            place_high,
         )
         delta = np.clip(
             w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high

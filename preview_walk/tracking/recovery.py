@@ -9,7 +9,7 @@ import numpy as np
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, WalkingPattern
-from preview_walk.planning.recovery_plan import hastened, landed_at, stepped_out
+from preview_walk.planning.recovery_plan import hastened, landed_at, stepped_out, waiting
 from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
 from preview_walk.planning.support import Sole
 from preview_walk.robots.robot import Robot
@@ -21,6 +21,9 @@ SWING_PULL = 25.0
 
 EARLY = 0.05
 """A foot that touches down earlier than planned by more than this (s) has landed where it is."""
+
+AHEAD = 0.025
+"""Time (s) for which the error of the DCM is extrapolated: the push that made it still lasts."""
 
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
@@ -49,9 +52,11 @@ class Recovery:
             TOLERANCE * leg,
         )
         self._stand_sole = Sole(*self.limits.zmp)
-        self._swing_time = 1.4 * pendulum
+        self._swing_time = 1.2 * pendulum
         self._due = -np.inf
         self._nominal: Footstep | None = None
+        self._dcm: tuple[float, Array] | None = None
+        self._rate: Array = np.zeros(2)
 
     def answer(self, t: float, pattern: WalkingPattern, dynamics: Dynamics) -> None:
         """Replace the pattern's plan where the state measured at t (s) asks for another."""
@@ -59,6 +64,9 @@ class Recovery:
             return
         self._due = t + PLANNING_DT - 1e-9
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
+        if self._dcm is not None:
+            self._rate = (dcm - self._dcm[1]) / (t - self._dcm[0])
+        self._dcm = t, dcm
         step = pattern.plan.swing_at(t)
         if step is None:
             plan = self._standing(t, pattern, dcm)
@@ -83,10 +91,12 @@ class Recovery:
         settle = pattern.plan.settle
         pause = settle if following is None else min(settle, following.lift - step.land)
         sole = dynamics.feet[step.foot]
+        later = pattern.planned_dcm(t + PLANNING_DT)
+        planned_rate = (later - pattern.planned_dcm(t)) / PLANNING_DT
         return adapt_step(
             pattern.plan,
             t,
-            dcm,
+            dcm + AHEAD * (self._rate - planned_rate),
             (pattern.planned_dcm(t), pattern.planned_dcm(step.land + 0.5 * pause)),
             (sole.position, sole.rotation @ sole.velocity[:3]),
             self._nominal,
@@ -97,16 +107,13 @@ class Recovery:
         error = np.abs(dcm - pattern.planned_dcm(t)).max()
         if error <= self.limits.tolerance:
             return None
-        sooner = hastened(pattern.plan, t)
-        if sooner is not None:
-            return sooner
         limits = self.limits
-        return stepped_out(
-            pattern.plan,
-            t,
-            dcm,
-            self._stand_sole,
-            limits.gait,
-            limits.omega,
-            self._swing_time,
-        )
+        # A push lasts: the step is for where the DCM will be, not for where it is.
+        ahead = dcm + AHEAD * self._rate
+        sole, time = self._stand_sole, self._swing_time
+        out = stepped_out(pattern.plan, t, ahead, sole, limits.gait, limits.omega, time)
+        if out is None:
+            out = waiting(pattern.plan, t, dcm)
+        if out is None:
+            out = hastened(pattern.plan, t)
+        return None if out is pattern.plan else out
