@@ -28,6 +28,10 @@ from preview_walk.types import FEET, Array, Foot
 CLEARANCE = 0.01
 """Least gap (m) between the soles in the walking posture."""
 
+STRADDLE = 0.25
+"""The soles stand as far apart as in the model's zero pose, unless that is this share of the leg's
+length more or less than its hips: then they stand below the hips."""
+
 
 def build_robot(description: Description, source: Source) -> Robot:
     """Return the robot that a description and its model stand for.
@@ -196,8 +200,11 @@ def _crouched(
     }
     data = model.createData()
     pin.framesForwardKinematics(model, data, q)
-    apart = data.oMf[soles["left"].frame].translation - data.oMf[soles["right"].frame].translation
-    width = max(float(apart[1]), soles["left"].half_width + soles["right"].half_width + CLEARANCE)
+    left, right = (data.oMf[soles[foot].frame].translation for foot in FEET)
+    hips = data.oMi[legs["left"].hip].translation - data.oMi[legs["right"].hip].translation
+    straddled = abs(left - right - hips)[1] > STRADDLE * legs["left"].length
+    width = float(hips[1] if straddled else (left - right)[1])
+    width = max(width, soles["left"].half_width + soles["right"].half_width + CLEARANCE)
     q = resting(model, q, *resting_at)
     sole_frames = {foot: soles[foot].frame for foot in FEET}
     return walking_posture(model, q, sole_frames, legs, width, CROUCHED), legs, width

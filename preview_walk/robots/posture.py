@@ -44,8 +44,8 @@ def find_leg(model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lat
     """Return a leg by its joints: those about the `lateral` direction (3,) bend it.
 
     The leg's length is the longest distance from hip to sole: between the axes of hip, knee and
-    ankle, seen from the side, and from the ankle to the sole plane. `q` (nq,) is any posture in
-    which the leg's side is `lateral` in world axes.
+    ankle, seen along the knee's axis, and from the ankle to the sole plane. `q` (nq,) is any
+    posture in which the leg's side is `lateral` in world axes.
 
     Raises `RobotError` where fewer than three joints bend the leg.
     """
@@ -62,7 +62,8 @@ def find_leg(model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lat
             "expected hip, knee and ankle"
         )
     hip, knee, ankle = bending[:3]
-    side = np.eye(3) - np.outer(lateral, lateral)
+    axis = axes[:, model.joints[knee].idx_v]
+    side = np.eye(3) - np.outer(axis, axis)
     points = [side @ data.oMi[j].translation for j in (hip, knee, ankle)]
     sole_pose = data.oMf[sole]
     drop = sole_pose.rotation[:, 2] @ (data.oMi[ankle].translation - sole_pose.translation)

@@ -77,10 +77,7 @@ def find_structure(tree: Tree, feet: Mapping[Foot, str], torso: str | None) -> S
         found = dict(zip(FEET, pair, strict=True))
     forward = np.cross(across, up)
     if forward @ tree.rotation(base)[:, 0] < 0.9:
-        notes.append(
-            f"forward is ({', '.join(f'{x + 0.0:.2g}' for x in forward @ tree.rotation(base))}) "
-            "in the base's axes"
-        )
+        notes.append(f"forward is ({_rounded(forward @ tree.rotation(base))}) in the base's axes")
     legs: dict[Foot, tuple[int, ...]] = dict(zip(FEET, map(tuple, chains), strict=True))
     trunk = _torso(tree, base, pelvis, found) if torso is None else _body(tree, torso, "the torso")
     return Structure(base, found, legs, up, forward, trunk, tuple(notes))
@@ -133,6 +130,11 @@ def _find_pair(tree: Tree) -> tuple[int, int]:
     best = max(reach, key=lambda key: reach[key])
     standing = [key for key in reach if key[1] == 0 and reach[key] > 0.6 * reach[best]]
     return max(standing, key=lambda key: reach[key], default=best)[0]
+
+
+def _rounded(vector: Array) -> str:
+    """Return a vector to be read, without rounding errors and negative zeros."""
+    return ", ".join(f"{x:.2g}" for x in np.round(vector, 6) + 0.0)
 
 
 def _own(tree: Tree, tip: int) -> int:

@@ -77,7 +77,7 @@ def test_one_leg(spec):
     spec.delete(spec.body("right_hip"))
     with says(
         "no two legs found: expected two limbs of at least 6 joints, the lowest of the robot, on "
-        "one body; its limbs end at 'left_elbow' (5 joints), 'right_elbow' (5 joints), "
+        "one body; its limbs end at 'left_elbow' (3 joints), 'right_elbow' (3 joints), "
         "'left_foot' (6 joints)"
     ):
         load_robot(spec)
@@ -88,7 +88,7 @@ def test_five_joint_legs(spec):
         spec.delete(spec.joint(f"{foot}_ankle_roll"))
     with says(
         "no two legs found: expected two limbs of at least 6 joints, the lowest of the robot, on "
-        "one body; its limbs end at 'left_elbow' (5 joints), 'right_elbow' (5 joints), "
+        "one body; its limbs end at 'left_elbow' (3 joints), 'right_elbow' (3 joints), "
         "'left_ankle' (5 joints), 'right_ankle' (5 joints)"
     ):
         load_robot(spec)
