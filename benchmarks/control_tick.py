@@ -31,6 +31,8 @@ from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Array, Foot
 
 FRICTION = 0.8
+STEP = 0.3
+"""Step length over leg length."""
 ROBOTS = ("alexander", "icub", "talos", "g1_hands")
 
 
@@ -55,7 +57,8 @@ class Tick:
 
 def record(robot: Robot, steps: int) -> list[Tick]:
     """Walk and return every tick."""
-    plan = FootstepPlanner(0.25, robot.step_width, 0.9).generate_footsteps(steps)
+    length = STEP * robot.leg_length
+    plan = FootstepPlanner(length, robot.step_width, 0.9).generate_footsteps(steps)
     walk = Walk(robot, plan, friction=FRICTION)
     body = walk.walker.body
     ticks: list[Tick] = []

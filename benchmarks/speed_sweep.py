@@ -66,10 +66,10 @@ def holds(speed: float, summary: pw.Summary) -> bool:
 
 
 def draw(done: dict[float, pw.Summary], name: str, out: str) -> None:
-    """Draw error, torque and cost over the measured speed; walks that did not hold are hollow."""
+    """Draw error, torque and cost over the commanded speed; hollow where it was not held."""
     figure = Figure(figsize=(9, 10), layout="constrained")
     error, torque, cost = figure.subplots(3, 1, sharex=True)
-    speeds = np.array([done[v].speed or nan for v in done])
+    speeds = np.array(list(done))
     held = np.array([holds(v, done[v]) for v in done])
     rms = np.array(
         [[nan if e is None else 1e3 * e for e in s.com_error_rms] for s in done.values()]
@@ -87,7 +87,7 @@ def draw(done: dict[float, pw.Summary], name: str, out: str) -> None:
     error.legend(title="axis")
     error.set(ylabel="CoM error rms [mm]", title=f"{name}: hollow where the speed was not held")
     torque.set(ylabel="largest torque / limit")
-    cost.set(ylabel="cost of transport", xlabel="speed [m/s]", ylim=(0.0, None))
+    cost.set(ylabel="cost of transport", xlabel="commanded speed [m/s]", ylim=(0.0, None))
     figure.savefig(out, dpi=120)
 
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from preview_walk.simulation.simulate import simulate, simulate_commands
     from preview_walk.simulation.video import render_video
     from preview_walk.simulation.walk import Walk
+    from preview_walk.simulation.walking_controller import WalkingController
     from preview_walk.tracking.gains import TrackingGains
 
 _HOMES = {
@@ -67,6 +68,7 @@ _HOMES = {
     "simulation.simulate": ("simulate", "simulate_commands"),
     "simulation.video": ("render_video",),
     "simulation.walk": ("Walk",),
+    "simulation.walking_controller": ("WalkingController",),
     "tracking.gains": ("TrackingGains",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -95,6 +97,7 @@ __all__ = [
     "SwingLegTrajectory",
     "TrackingGains",
     "Walk",
+    "WalkingController",
     "ZMPTrajectoryGenerator",
     "arc",
     "cart_table",

@@ -140,7 +140,6 @@ def _run(options: Options, command: str) -> int:
 
 def _inspect(model: str, folder: Path) -> int:
     """Print the report on a model and draw its stance; it is bad input if it cannot stand."""
-    from preview_walk.offscreen import off_screen
     from preview_walk.robots.inspection import inspect_robot
 
     inspection = inspect_robot(model)
@@ -150,7 +149,7 @@ def _inspect(model: str, folder: Path) -> int:
         return BAD_INPUT
     _make_folder(folder)
     picture = folder / "stance.png"
-    with _naming("--inspect"), whole_file(picture) as part, off_screen():
+    with _naming("--inspect"), whole_file(picture) as part:
         inspection.write_picture(part)
     _say(f"\nstance and soles: {picture}")
     return WALKED

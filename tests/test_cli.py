@@ -8,7 +8,6 @@ from __future__ import annotations
 import errno
 import json
 import sys
-from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,7 +17,7 @@ import pytest
 from synthetic_walk import walk_record
 
 import preview_walk as pw
-from preview_walk import analysis, cli, files, offscreen
+from preview_walk import analysis, cli, files
 from preview_walk.analysis import PLOTS
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.robots import inspection
@@ -328,7 +327,6 @@ def test_the_catalogue_is_listed(out: Path, capsys: pytest.CaptureFixture[str]) 
 def test_a_model_is_inspected_and_drawn(
     out: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(offscreen, "off_screen", nullcontext)
     monkeypatch.setattr(
         inspection.Inspection, "write_picture", lambda _, path: path.write_bytes(b"a picture")
     )

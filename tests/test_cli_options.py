@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -185,6 +186,19 @@ def test_help_lists_every_option_and_exit_code(capsys: pytest.CaptureFixture[str
         )
         assert f"--{name.replace('_', '-')} " in text
     assert "0 walked and stood; 1 fell; 2 bad input" in text
+
+
+def test_the_readme_has_every_option_and_default(capsys: pytest.CaptureFixture[str]) -> None:
+    readme = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    with pytest.raises(SystemExit):
+        cli.main(["--help"])
+    names = set(re.findall(r"--[a-z][a-z-]+", capsys.readouterr().out)) - {"--help"}
+    defaults = dict(re.findall(r"\| `(--[a-z-]+)[^`]*` \|.*\| *(.*?) *\|\n", readme))
+    assert set(defaults) == names
+    options = parse([])
+    for name in ("steps", "step-length", "step-time", "double-support-ratio", "seed", "out"):
+        value = getattr(options, name.replace("-", "_"))
+        assert defaults[f"--{name}"].strip("`") == str(value)
 
 
 def test_python_m_is_the_same_command() -> None:

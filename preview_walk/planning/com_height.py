@@ -11,7 +11,7 @@ from math import sqrt
 
 import numpy as np
 
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.types import FEET, Array
 
 LONGEST_STRETCH = 0.97
@@ -54,7 +54,9 @@ def wanted_heights(plan: FootstepPlan, times: Array, legs: LegGeometry) -> Array
     """
     left, right = (plan.sole(foot, float(times[0])) for foot in FEET)
     soles = {"left": left, "right": right}
-    heights = np.full(len(times), _height(soles["left"], soles["right"], legs, 0.0))
+    landed = [step for step in plan.lifted(float(times[0])) if step.land <= times[0]]
+    share = _pause_share(plan, landed[-1]) if landed else 0.0
+    heights = np.full(len(times), _height(soles["left"], soles["right"], legs, share))
     for step in plan.steps:
         if step.land <= times[0]:
             continue
@@ -63,11 +65,16 @@ def wanted_heights(plan: FootstepPlan, times: Array, legs: LegGeometry) -> Array
         soles[step.foot] = step.pose
         middle = 0.5 * (step.lift + step.land)
         index = int(np.searchsorted(times, middle))
-        following = plan.next_landing(step.land)
-        pause = following.lift - step.land if following is not None else 0.0
-        share = pause / (pause + step.land - step.lift)
+        share = _pause_share(plan, step)
         heights[index:] = _height(soles["left"], soles["right"], legs, share)
     return heights
+
+
+def _pause_share(plan: FootstepPlan, step: Footstep) -> float:
+    """Return the share of a step's time that its double support takes; 0 after the last step."""
+    following = plan.next_landing(step.land)
+    pause = following.lift - step.land if following is not None else 0.0
+    return pause / (pause + step.land - step.lift)
 
 
 def _height(left: Array, right: Array, legs: LegGeometry, double_support: float) -> float:

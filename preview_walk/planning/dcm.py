@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import lfilter
 
+from preview_walk.planning.support import Sole, support_polygon
 from preview_walk.types import Array
 
 
@@ -20,6 +23,21 @@ def planned_dcm(zmp: Array, omega_dt: float) -> Array:
     back, _ = lfilter([1.0 - decay], [1.0, -decay], zmp[::-1], axis=0, zi=decay * last[None])
     result: Array = back[::-1]
     return result
+
+
+def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:
+    """Return the point (2,) of the support polygon of standing soles nearest to `point` (2,).
+
+    `poses`: (4, 4) of the soles, at least one; `sole`: their half sizes.
+    """
+    x, y = point.tolist()
+    for pose in poses:  # nearly always over a sole: no need of the hull
+        dx, dy = x - float(pose[0, 3]), y - float(pose[1, 3])
+        along = dx * float(pose[0, 0]) + dy * float(pose[1, 0])
+        aside = dx * float(pose[0, 1]) + dy * float(pose[1, 1])
+        if abs(along) <= sole.half_length and abs(aside) <= sole.half_width:
+            return point
+    return nearest_inside(support_polygon(poses, sole), point)
 
 
 def nearest_inside(polygon: Array, point: Array) -> Array:

@@ -95,8 +95,9 @@ class WalkingPattern:
         self._first = self._tick
         n = self.controller.n_preview
         rest = max(0, int(np.ceil((plan.end - self._start) / PLANNING_DT)) - self._tick)
-        ticks = np.arange(self._tick, self._tick + rest + n + 2, dtype=np.float64)
-        times = self._start + PLANNING_DT * ticks
+        times: Array = self._start + PLANNING_DT * np.arange(
+            self._tick, self._tick + rest + n + 2, dtype=np.float64
+        )
         self._reference = self._zmp.at(times)
         self._shift = swing_zmp_shift(plan, times, self._momentum, self._swing_height)
         self._samples = self._reference - self._shift

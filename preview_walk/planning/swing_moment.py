@@ -55,9 +55,9 @@ def swing_zmp_shift(
             continue
         t = times[first:last]
         swing = swing_of(plan, step, swing_height)
-        x, y = (_acceleration(swing._plane[axis], t) for axis in (0, 1))
+        x, y = (_acceleration(swing.plane[axis], t) for axis in (0, 1))
         z = np.zeros(len(t))
-        for piece in swing._vertical:
+        for piece in swing.vertical:
             inside = (t >= piece.start) & (t < piece.end)
             z[inside] = _acceleration(piece, t[inside])
         yaw = step.yaw

@@ -77,6 +77,7 @@ class Swing:
         ground_clearance: height (m) of the sole centre above the straight line from one sole
             centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
             apex is raised where `swing_height` alone does not give it.
+        plane, vertical: the quintics of x, y, yaw, pitch, roll; those of the height in time.
 
     Raises:
         InvalidInput: a pose that is none, times out of order, or a negative height.
@@ -88,12 +89,12 @@ class Swing:
     land: float
     swing_height: float = 0.05
     ground_clearance: float = 0.02
-    _plane: tuple[Quintic, ...] = ()
-    _vertical: tuple[Quintic, ...] = ()
+    plane: tuple[Quintic, ...] = ()
+    vertical: tuple[Quintic, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the fields; make the polynomials."""
-        if self._plane:
+        if self.plane:
             return
         object.__setattr__(self, "start", as_pose(self.start, "start of the swing"))
         object.__setattr__(self, "end", as_pose(self.end, "end of the swing"))
@@ -112,8 +113,8 @@ class Swing:
         z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
         middle = 0.5 * (self.lift + self.land)
         vertical = _over(self.lift, (z0, 0.0, 0.0), middle, self._apex(z0, z1), self.land, z1)
-        object.__setattr__(self, "_plane", plane)
-        object.__setattr__(self, "_vertical", vertical)
+        object.__setattr__(self, "plane", plane)
+        object.__setattr__(self, "vertical", vertical)
 
     def _apex(self, z0: float, z1: float) -> float:
         return max(z0, z1) + max(self.swing_height, self.ground_clearance / RISEN_SHARE)
@@ -125,7 +126,7 @@ class Swing:
         Before lift the sole is at `start`, after landing at `end`, at rest.
         """
         (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
-            q.at(t) for q in self._plane
+            q.at(t) for q in self.plane
         )
         z, vz, az = self._height(t).at(t)
         cw, sw, cp, sp, cr, sr = cos(w), sin(w), cos(p), sin(p), cos(r), sin(r)
@@ -154,10 +155,10 @@ class Swing:
         return pose, velocity, acceleration
 
     def _height(self, t: float) -> Quintic:
-        for piece in self._vertical:
+        for piece in self.vertical:
             if t < piece.end:
                 return piece
-        return self._vertical[-1]
+        return self.vertical[-1]
 
     def retarget(self, t: float, pose: Array, land: float | None = None) -> Swing:
         """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
@@ -183,15 +184,15 @@ class Swing:
             raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
         end = as_pose(pose, "pose of the landing")
         plane, vertical = self._new_plane(t, end, land), self._new_vertical(t, end, land)
-        return replace(self, end=end, land=land, _plane=plane, _vertical=vertical)
+        return replace(self, end=end, land=land, plane=plane, vertical=vertical)
 
     def _new_plane(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
-        now = tuple(q.at(t) for q in self._plane)
+        now = tuple(q.at(t) for q in self.plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
         plane = tuple(
             Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
         )
-        before = self._plane[0].end
+        before = self.plane[0].end
         if t < before < land and _overshoots(plane[0], plane[1]):
             ends = zip(now, goal, strict=True)
             plane = tuple(Quintic.between(t, before, s, (g, 0.0, 0.0)) for s, g in ends)
@@ -202,7 +203,7 @@ class Swing:
         piece = self._height(t)
         now, target = piece.at(t), sum(piece.coefficients)
         apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
-        if len(self._vertical) == 2 and t < piece.end < self.land and target > old - 1e-9:
+        if len(self.vertical) == 2 and t < piece.end < self.land and target > old - 1e-9:
             top = t + (piece.end - t) * (land - t) / (self.land - t)
             if apex > target + 1e-9:
                 top = max(top, t + 0.35 * (land - t))

@@ -14,7 +14,7 @@ from preview_walk.robots.assemble import assemble, sole_name
 from preview_walk.robots.description import Description
 from preview_walk.robots.mjcf import compile_spec, keyframe_angles, settle
 from preview_walk.robots.motors import joint_efforts
-from preview_walk.robots.pinocchio_model import pinocchio_model, placement
+from preview_walk.robots.pinocchio_model import pinocchio_model
 from preview_walk.robots.posture import Leg, find_leg, resting, walking_posture
 from preview_walk.robots.rebuild import rebuild
 from preview_walk.robots.robot import Blueprint, Robot, RobotSole
@@ -127,11 +127,23 @@ def _soles(
 
 def _sole_frame(mj: mujoco.MjModel, model: pin.Model, foot: Foot) -> RobotSole:
     """Add a sole's frame to the Pinocchio model where MuJoCo has its site."""
-    site, geom = mj.site(sole_name(foot)), mj.geom(sole_name(foot))
-    frame = model.frames[model.getFrameId(mj.body(int(site.bodyid[0])).name)]
-    local = frame.placement * placement(site.pos, site.quat)
+    data = mujoco.MjData(mj)
+    mujoco.mj_kinematics(mj, data)
+    # Not from the site's own numbers: MuJoCo rounds a site onto the body's inertial axes where the
+    # two differ by less than a millionth.
+    site, geom = data.site(sole_name(foot)), mj.geom(sole_name(foot))
+    body = data.body(int(mj.site(sole_name(foot)).bodyid[0]))
+    here = pin.SE3(np.array(body.xmat).reshape(3, 3), np.array(body.xpos))
+    there = pin.SE3(np.array(site.xmat).reshape(3, 3), np.array(site.xpos))
+    frame = model.frames[model.getFrameId(body.name)]
     id_ = model.addFrame(
-        pin.Frame(sole_name(foot), frame.parentJoint, 0, local, pin.FrameType.OP_FRAME)
+        pin.Frame(
+            sole_name(foot),
+            frame.parentJoint,
+            0,
+            frame.placement * here.actInv(there),
+            pin.FrameType.OP_FRAME,
+        )
     )
     return RobotSole(id_, geom.id, float(geom.size[0]), float(geom.size[1]))
 
@@ -191,9 +203,7 @@ def _crouched(
     return walking_posture(model, q, sole_frames, legs, width, CROUCHED), legs, width
 
 
-def _free_limits(
-    mj: mujoco.MjModel, model: pin.Model, postures: Iterable[Array]
-) -> list[str]:
+def _free_limits(mj: mujoco.MjModel, model: pin.Model, postures: Iterable[Array]) -> list[str]:
     """Lift the limits that the postures break, in both models; return the joints' names."""
     low, high = _limits(mj)
     q = np.array([posture[7:] for posture in postures])

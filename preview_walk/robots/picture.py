@@ -8,6 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from preview_walk.offscreen import off_screen
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco
@@ -47,7 +48,9 @@ def stance_image(
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (0.0, 0.0, 0.54 * top)
     camera.distance, camera.azimuth, camera.elevation = 1.75 * top + 0.3, azimuth, -12.0
-    with mujoco.Renderer(model, height, width) as renderer:
+    with off_screen():
+        renderer = mujoco.Renderer(model, height, width)
+    with renderer:
         renderer.update_scene(data, camera, option)
         return np.array(renderer.render())
 

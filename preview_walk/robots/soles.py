@@ -19,6 +19,9 @@ LAYER = 0.004
 SMALLEST = 0.01
 """Smallest length and width (m) that a sole may have."""
 
+TILTED = np.radians(30.0)
+"""Largest angle between the vertical and the normal of a foot's flat in the reference pose."""
+
 _Geom = mujoco.mjtGeom
 
 
@@ -51,10 +54,12 @@ def sole_axes(tree: Tree, body: int, up: Array, forward: Array) -> Array:
 def find_sole(tree: Tree, body: int, axes: Array) -> SolePatch:
     """Return the sole under a body: the largest rectangle inside what can touch flat ground.
 
-    `axes` (3, 3) is the sole frame's rotation in the body. All shapes rigidly fixed to the body
-    count: the corners of boxes, the lowest points of round shapes, the vertices of meshes.
+    `axes` (3, 3) is the sole frame's rotation in the body; a foot that is tilted in the reference
+    pose, so that it would stand on a point or an edge, is turned onto its nearest flat. All shapes
+    rigidly fixed to the body count: the corners of boxes, the lowest points of round shapes, the
+    vertices of meshes.
 
-    Raises `RobotError` where the body has no shapes or stands on a point or an edge.
+    Raises `RobotError` where the body has no shapes, or no flat to stand on.
     """
     points = np.array(list(_points(tree, body, axes[:, 2])))
     if not len(points):
@@ -62,17 +67,57 @@ def find_sole(tree: Tree, body: int, axes: Array) -> SolePatch:
             f"the foot '{tree.name(body)}' has no shapes to find its sole from; "
             "expected geometry, or a description that gives the sole's size and centre"
         )
+    patch = level = _patch(tree.name(body), points, axes)
+    for _ in range(5):  # where round shapes touch the ground depends on the tilt
+        if min(patch.half_length, patch.half_width) >= 0.5 * SMALLEST:
+            return patch
+        axes = _turned(axes, _flat(points, axes[:, 2]))
+        points = np.array(list(_points(tree, body, axes[:, 2])))
+        patch = _patch(tree.name(body), points, axes)
+    raise RobotError(
+        f"the foot '{tree.name(body)}' touches flat ground in {2 * level.half_length:.3f} x "
+        f"{2 * level.half_width:.3f} m; expected a flat sole of at least {SMALLEST} x {SMALLEST} m"
+    )
+
+
+def _patch(body: str, points: Array, axes: Array) -> SolePatch:
+    """Return the largest rectangle among the lowest of the points (n, 3)."""
     local = points @ axes
     height = float(local[:, 2].min())
-    low = local[local[:, 2] < height + LAYER, :2]
-    x0, x1, y0, y1 = inscribed_rectangle(low)
-    if min(x1 - x0, y1 - y0) < SMALLEST:
-        raise RobotError(
-            f"the foot '{tree.name(body)}' touches flat ground in {x1 - x0:.3f} x "
-            f"{y1 - y0:.3f} m; expected a flat sole of at least {SMALLEST} x {SMALLEST} m"
-        )
+    x0, x1, y0, y1 = inscribed_rectangle(local[local[:, 2] < height + LAYER, :2])
     center = axes @ np.array(((x0 + x1) / 2, (y0 + y1) / 2, height))
-    return SolePatch(tree.name(body), center, axes, (x1 - x0) / 2, (y1 - y0) / 2)
+    return SolePatch(body, center, axes, (x1 - x0) / 2, (y1 - y0) / 2)
+
+
+def _flat(points: Array, up: Array) -> Array:
+    """Return the upward normal (3,) of the largest lower face of points (n, 3), `up` without one.
+
+    Faces count that are tilted by `TILTED` at most; those of nearly one normal are one.
+    """
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):  # fewer than four points, or all in one plane
+        normal = np.linalg.svd(points - points.mean(axis=0))[2][2]
+        normal *= np.sign(normal @ up) or 1.0
+        return np.asarray(normal if normal @ up > np.cos(TILTED) else up)
+    normals = -hull.equations[:, :3]
+    corners = points[hull.simplices]
+    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = 0.5 * np.linalg.norm(sides, axis=1)
+    areas[normals @ up < np.cos(TILTED)] = 0.0
+    if not areas.any():
+        return up
+    alike = normals @ normals.T > np.cos(np.radians(3.0))
+    best = int((alike @ areas).argmax())
+    normal = (alike[best] * areas) @ normals
+    return np.asarray(normal / np.linalg.norm(normal))
+
+
+def _turned(axes: Array, normal: Array) -> Array:
+    """Return axes (3, 3) with z along a normal (3,) and x as near as it can be to what it was."""
+    x = axes[:, 0] - normal * (normal @ axes[:, 0])
+    x /= np.linalg.norm(x)
+    return np.column_stack((x, np.cross(normal, x), normal))
 
 
 def inscribed_rectangle(points: Array) -> tuple[float, float, float, float]:

@@ -125,10 +125,7 @@ def _find_pair(tree: Tree) -> tuple[int, int]:
             "link into the world); expected a base with a mass, or the .urdf file itself"
         )
     if not reach:
-        limbs = ", ".join(
-            f"'{tree.name(tip)}' ({len(tree.joints_on(tree.path(tip)))} joints)"
-            for tip in tree.tips
-        )
+        limbs = ", ".join(f"'{tree.name(tip)}' ({_own(tree, tip)} joints)" for tip in tree.tips)
         raise RobotError(
             f"no two legs found: expected two limbs of at least {LEG_JOINTS} joints, the lowest "
             f"of the robot, on one body; its limbs end at {limbs or 'no joint at all'}"
@@ -136,6 +133,12 @@ def _find_pair(tree: Tree) -> tuple[int, int]:
     best = max(reach, key=lambda key: reach[key])
     standing = [key for key in reach if key[1] == 0 and reach[key] > 0.6 * reach[best]]
     return max(standing, key=lambda key: reach[key], default=best)[0]
+
+
+def _own(tree: Tree, tip: int) -> int:
+    """Return how many joints a limb has from where it leaves the others to its tip."""
+    trunks = [len(tree.path(tree.common([tip, end]))) for end in tree.tips if end != tip]
+    return len(tree.joints_on(tree.path(tip)[max(trunks, default=0) :]))
 
 
 def _base(tree: Tree, pelvis: int) -> int:

@@ -9,10 +9,12 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import InvalidInput
+from preview_walk.planning.com_height import LONGEST_STRETCH, LOWEST_HIPS
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import midfeet, pose_at
 from preview_walk.planning.support import Sole
+from preview_walk.robots.posture import walking_posture
 from preview_walk.robots.robot import Robot
 from preview_walk.types import FEET, Array
 
@@ -121,3 +123,31 @@ def standing_configuration(robot: Robot, plan: FootstepPlan) -> Array:
         f"step_width: {robot.name} cannot stand on soles {apart:.3f} m apart at its walking "
         f"height; it stands on soles {robot.step_width:.3f} m apart."
     )
+
+
+def at_com_height(robot: Robot, com_height: float) -> Robot:
+    """Return a robot whose walking posture has its CoM at this height (m) above the soles.
+
+    Raises `InvalidInput` for a height that asks for a locked knee or a squat.
+    """
+    data = robot.pin.createData()
+    pin.framesForwardKinematics(robot.pin, data, robot.posture)
+    hip = float(data.oMi[robot.legs["left"].hip].translation[2])
+    low, high = (
+        robot.com_height + share * robot.leg_length - hip
+        for share in (LOWEST_HIPS, LONGEST_STRETCH)
+    )
+    if not low <= com_height <= high:
+        raise InvalidInput(
+            f"com_height must be between {low:.3f} and {high:.3f} m for the legs of {robot.name}, "
+            f"got {com_height}."
+        )
+    soles = {foot: robot.soles[foot].frame for foot in FEET}
+    posture, height = robot.posture, robot.com_height
+    while abs(height - com_height) > 1e-9:
+        hip += com_height - height
+        posture = walking_posture(
+            robot.pin, posture, soles, robot.legs, robot.step_width, hip / robot.leg_length
+        )
+        height = float(pin.centerOfMass(robot.pin, data, posture)[2])
+    return replace(robot, posture=posture, com_height=height)

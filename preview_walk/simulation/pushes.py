@@ -12,6 +12,9 @@ import numpy as np
 from preview_walk.errors import InvalidInput
 from preview_walk.types import Array
 
+ROUNDING = 1e-9
+"""The simulation's clock, a sum of many steps, may be off by this much (s)."""
+
 
 @dataclass(frozen=True)
 class Push:
@@ -99,6 +102,7 @@ class Pusher:
 
     def apply(self, t: float, data: mujoco.MjData) -> Array:
         """Write the generalised forces of the pushes at time t (s); return their sum (3,) in N."""
+        t += ROUNDING
         active = [p for p in self._pushes if p[0].t <= t < p[0].t + p[0].duration]
         if not active:
             if not self._idle:

@@ -12,8 +12,8 @@ from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.recorder import package_versions
 from preview_walk.simulation.world import World
-from preview_walk.tracking.dynamics import FrameTerms
-from preview_walk.tracking.walker import CONTACT_FORCE, Walker
+from preview_walk.tracking.feet import CONTACT_FORCE, sole_pose
+from preview_walk.tracking.walker import Walker
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
 NO_CONTACT = -1
@@ -83,8 +83,8 @@ def tick_row(
         ),
         "zmp_ref": reference.zmp_ref,
         "zmp_preview": reference.zmp,
-        "left_foot": _pose(left),
-        "right_foot": _pose(right),
+        "left_foot": sole_pose(left),
+        "right_foot": sole_pose(right),
         "left_foot_ref": walker.feet["left"].pose,
         "right_foot_ref": walker.feet["right"].pose,
         "left_force": world.wrench["left"],
@@ -123,11 +123,3 @@ def _planned_wrenches(walker: Walker, wrench: Array) -> dict[Foot, Array]:
         planned[foot][:3] = rotation @ wrench[6 * k : 6 * k + 3]
         planned[foot][3:] = rotation @ wrench[6 * k + 3 : 6 * k + 6]
     return planned
-
-
-def _pose(terms: FrameTerms) -> Array:
-    """Return the homogeneous pose (4, 4) of a frame."""
-    pose = np.eye(4)
-    pose[:3, :3] = terms.rotation
-    pose[:3, 3] = terms.position
-    return pose

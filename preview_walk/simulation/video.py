@@ -42,6 +42,7 @@ def frames(
     """
     model = visual_model(robot)
     model.vis.global_.offheight, model.vis.global_.offwidth = size
+    model.vis.map.shadowclip = 3.0  # with MuJoCo 3 the floor shows specks of its own shadow else
     data = mujoco.MjData(model)
     camera = mujoco.MjvCamera()
     camera.distance = 3.2 * robot.com_height

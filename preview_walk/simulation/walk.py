@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
@@ -90,6 +91,7 @@ class Walk:
         self.world = World(robot, model, physics_hz, friction, pushes)
         q = standing_configuration(robot, plan)
         self.world.place(q)
+        self.world.data.time = plan.start
         self.walker = Walker(robot, plan, q, friction, gains, solver)
         self.limits = gait_limits(robot)
         self._command = (0.0, 0.0, 0.0)
@@ -110,6 +112,7 @@ class Walk:
                 friction=friction,
                 seed=seed,
                 solver=solver,
+                gains=asdict(self.walker.gains),
             ),
             {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
         )
@@ -157,12 +160,13 @@ class Walk:
         """Walk at this velocity from now on, until another command; zeros stop the walk.
 
         `vx` (forward) and `vy` (left) in m/s, `wz` (yaw rate, left positive) in rad/s, in the
-        frame of the walking robot; scaled down to what its legs can do. The plan always ends in a
-        stand, so a walk that nobody commands any more stops safely. May be called at any moment.
+        frame of the walking robot; scaled down to what its legs can do. It holds until the next
+        command; the plan of every instant ends in a stand. May be called at any moment.
 
         Raises:
             InvalidInput: a number is not finite.
         """
+        saturated((vx, vy, wz), self.limits)  # refuses what cannot be before anything changes
         self._command = (vx, vy, wz)
         self._obey()
 
@@ -198,10 +202,18 @@ class Walk:
         """Go on to time `until` (s; default: until it has stood for a while after the plan).
 
         Ends early at a fall; Ctrl-C ends it too and is noted in the record.
+
+        Raises:
+            InvalidInput: no `until` while a command is in force, which would be a walk for ever.
         """
+        if until is None and any(self._command) and not self._schedule:
+            raise InvalidInput(
+                "until must be given while a command is in force, "
+                f"got a walk at {self._command} for ever; command(0, 0, 0) stops it."
+            )
         try:
             with one_thread():
-                while not self.fallen:
+                while not (self.fallen or self._interrupted):
                     end = self._end if until is None else until
                     if self.time >= end - 1e-9:
                         break

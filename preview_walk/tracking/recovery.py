@@ -19,7 +19,7 @@ from preview_walk.types import Array, Foot
 SWING_PULL = 25.0
 """Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
 
-EARLY = 0.03
+EARLY = 0.05
 """A foot that touches down earlier than planned by more than this (s) has landed where it is."""
 
 CALM = 1.0

@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from preview_walk.planning.dcm import nearest_inside, planned_dcm
 from preview_walk.planning.pose import pose_at
 from preview_walk.planning.support import Sole, support_margin, support_polygon
+from preview_walk.types import Array
 
 OMEGA, DT = 3.3, 0.005
 SOLE = Sole(0.105, 0.065)
@@ -20,19 +21,23 @@ places = st.builds(pose_at, metres, metres, st.floats(-3.1, 3.1))
 polygons = st.lists(places, min_size=1, max_size=2).map(lambda p: support_polygon(p, SOLE))
 
 
+def density(s: float) -> float:
+    return float(OMEGA * np.exp(-OMEGA * s))
+
+
 @given(zmps)
-def test_is_the_integral_of_the_zmp_to_come(zmp):
+def test_is_the_integral_of_the_zmp_to_come(zmp: Array) -> None:
     """Quadrature of omega exp(-omega s) p(s), one interval of constant ZMP after the other."""
     dcm = planned_dcm(zmp, OMEGA * DT)
     for k in (0, len(zmp) // 2, len(zmp) - 1):
         total = np.zeros(2)
         for i in range(k, len(zmp)):
             start, end = (i - k) * DT, np.inf if i == len(zmp) - 1 else (i - k + 1) * DT
-            total += zmp[i] * quad(lambda s: OMEGA * np.exp(-OMEGA * s), start, end)[0]
+            total += zmp[i] * quad(density, start, end)[0]
         assert dcm[k] == pytest.approx(total, abs=1e-9)
 
 
-def test_of_a_swaying_zmp_in_closed_form():
+def test_of_a_swaying_zmp_in_closed_form() -> None:
     """p = cos(a t) has the bounded DCM Re[omega / (omega - i a) exp(i a t)]."""
     a = 4.0
     for dt, tolerance in ((0.01, 4e-2), (0.001, 4e-3), (0.0001, 4e-4)):
@@ -45,7 +50,7 @@ def test_of_a_swaying_zmp_in_closed_form():
 
 
 @given(zmps, metres, metres)
-def test_moves_with_the_zmp_and_superposes(zmp, dx, dy):
+def test_moves_with_the_zmp_and_superposes(zmp: Array, dx: float, dy: float) -> None:
     dcm, move = planned_dcm(zmp, OMEGA * DT), np.array((dx, dy))
     assert planned_dcm(zmp + move, OMEGA * DT) == pytest.approx(dcm + move, abs=1e-12)
     assert planned_dcm(2.0 * zmp[:, ::-1], OMEGA * DT) == pytest.approx(2.0 * dcm[:, ::-1])
@@ -55,7 +60,7 @@ def test_moves_with_the_zmp_and_superposes(zmp, dx, dy):
 
 
 @given(zmps)
-def test_anything_else_runs_away(zmp):
+def test_anything_else_runs_away(zmp: Array) -> None:
     """Played forward the planned DCM ends on the last ZMP; a millimetre beside it is multiplied."""
     grow = np.exp(OMEGA * DT)
     right = planned_dcm(zmp, OMEGA * DT)[0]
@@ -67,7 +72,7 @@ def test_anything_else_runs_away(zmp):
 
 
 @given(polygons, metres, metres)
-def test_nearest_inside_is_inside_and_nearest(polygon, x, y):
+def test_nearest_inside_is_inside_and_nearest(polygon: Array, x: float, y: float) -> None:
     point = np.array((x, y))
     found, margin = nearest_inside(polygon, point), float(support_margin(polygon, point))
     assert support_margin(polygon, found) >= -1e-12

@@ -12,11 +12,11 @@ from preview_walk.planning.footstep_planner import FootstepPlanner
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, ComReference, WalkingPattern
-from preview_walk.planning.pose import midfeet, pose_at
+from preview_walk.planning.pose import Heading, midfeet, pose_at
 from preview_walk.planning.support import Sole, support_margin, support_polygon
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.zmp_trajectory import zmp_reference
-from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT
+from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, Array, Foot
 
 LEGS = LegGeometry(length=0.812, hip_height=0.747, com_height=0.876)
 SOLE = Sole(0.105, 0.065)
@@ -37,31 +37,34 @@ DT = 0.002
 class Motion:
     """A pattern sampled over a plan: the fields of `ComReference`, first axis time."""
 
-    time: np.ndarray
-    com: np.ndarray
-    velocity: np.ndarray
-    acceleration: np.ndarray
-    zmp: np.ndarray
-    zmp_ref: np.ndarray
-    dcm: np.ndarray
-    ground: np.ndarray
+    time: Array
+    com: Array
+    velocity: Array
+    acceleration: Array
+    zmp: Array
+    zmp_ref: Array
+    dcm: Array
+    ground: Array
 
 
-def slow_walk(n_steps=6, start=(0.0, 0.0, 0.0)):
+Walked = tuple[FootstepPlan, WalkingPattern, Motion]
+
+
+def slow_walk(n_steps: int = 6, start: Heading = (0.0, 0.0, 0.0)) -> FootstepPlan:
     return FootstepPlanner(0.25, 0.17, 0.9).generate_footsteps(n_steps, start, ramp=2)
 
 
-def fast_walk():
+def fast_walk() -> FootstepPlan:
     return FootstepPlanner(0.5, 0.17, 0.62, 0.05).generate_footsteps(9, ramp=3)
 
 
-def pattern_of(plan):
+def pattern_of(plan: FootstepPlan) -> WalkingPattern:
     x, y, _ = midfeet(plan[0].pose, plan[1].pose)
     com = np.array((x, y, plan[0].pos[2] + LEGS.com_height))
     return WalkingPattern(plan, com, LEGS, SOLE, MOMENTUM, SWING_HEIGHT)
 
 
-def motion(pattern, times):
+def motion(pattern: WalkingPattern, times: Array) -> Motion:
     samples = [pattern.at(t) for t in times]
     columns = {
         f.name: np.array([getattr(s, f.name) for s in samples]) for f in fields(ComReference)
@@ -69,18 +72,18 @@ def motion(pattern, times):
     return Motion(time=times, **columns)
 
 
-def times_of(plan, dt=DT):
-    return plan.start + dt * np.arange(int((plan.end + 1.5 - plan.start) / dt))
+def times_of(plan: FootstepPlan, dt: float = DT) -> Array:
+    return np.asarray(plan.start + dt * np.arange(int((plan.end + 1.5 - plan.start) / dt)))
 
 
 @pytest.fixture(scope="module", params=[slow_walk, fast_walk])
-def walked(request):
+def walked(request: pytest.FixtureRequest) -> Walked:
     plan = request.param()
     pattern = pattern_of(plan)
     return plan, pattern, motion(pattern, times_of(plan))
 
 
-def test_velocity_and_acceleration_are_derivatives(walked):
+def test_velocity_and_acceleration_are_derivatives(walked: Walked) -> None:
     _, _, m = walked
     velocity, acceleration = (np.gradient(x, DT, axis=0) for x in (m.com, m.velocity))
     inner = slice(3, -3)
@@ -89,7 +92,7 @@ def test_velocity_and_acceleration_are_derivatives(walked):
     assert np.abs(np.diff(m.acceleration, axis=0)).max() < 0.3  # no jumps
 
 
-def test_the_zmp_is_that_of_the_motion(walked):
+def test_the_zmp_is_that_of_the_motion(walked: Walked) -> None:
     """p = c - c'' / omega^2 and the moment of the swinging leg, with omega of the right height."""
     plan, pattern, m = walked
     height = MOMENTUM.effective_height(LEGS.com_height)
@@ -102,7 +105,7 @@ def test_the_zmp_is_that_of_the_motion(walked):
     assert m.dcm == pytest.approx(m.com[:, :2] + m.velocity[:, :2] / pattern.omega, abs=1e-12)
 
 
-def test_the_zmp_follows_the_plan_and_stays_on_the_soles(walked):
+def test_the_zmp_follows_the_plan_and_stays_on_the_soles(walked: Walked) -> None:
     plan, _, m = walked
     assert m.zmp_ref == pytest.approx(zmp_reference(plan, SOLE).at(m.time), abs=5e-3)
     error = m.zmp - m.zmp_ref
@@ -114,7 +117,7 @@ def test_the_zmp_follows_the_plan_and_stays_on_the_soles(walked):
         assert support_margin(polygon, m.zmp[k]) > 0.0
 
 
-def test_the_planned_dcm_is_the_one_walked(walked):
+def test_the_planned_dcm_is_the_one_walked(walked: Walked) -> None:
     """Two ways to the same bounded motion: backward integration and preview control."""
     plan, _, m = walked
     pattern = pattern_of(plan)
@@ -122,21 +125,21 @@ def test_the_planned_dcm_is_the_one_walked(walked):
     assert np.abs(planned - m.dcm).max() < 4e-3
 
 
-def test_ends_at_rest_between_the_feet(walked):
+def test_ends_at_rest_between_the_feet(walked: Walked) -> None:
     plan, _, m = walked
     x, y, _ = midfeet(plan.sole("left", plan.end), plan.sole("right", plan.end))
     assert m.com[-1] == pytest.approx((x, y, LEGS.com_height), abs=5e-4)
     assert np.abs(m.velocity[-1]).max() < 1e-3
 
 
-def test_can_be_asked_at_any_rate():
+def test_can_be_asked_at_any_rate() -> None:
     plan = slow_walk(3)
     often = motion(pattern_of(plan), times_of(plan, 0.001))
     seldom = motion(pattern_of(plan), times_of(plan, 0.008))
     assert (often.com[::8][: len(seldom.com)] == seldom.com).all()
 
 
-def test_is_the_same_anywhere_in_any_direction_at_any_time():
+def test_is_the_same_anywhere_in_any_direction_at_any_time() -> None:
     plan, by = slow_walk(4), pose_at(100.0, -50.0, 2.4, 0.7)
     home = motion(pattern_of(plan), times_of(plan))
     away = motion(pattern_of(plan.transformed(by)), times_of(plan))
@@ -150,7 +153,7 @@ def test_is_the_same_anywhere_in_any_direction_at_any_time():
 
 
 @pytest.mark.parametrize("plan", [slow_walk(), fast_walk()])
-def test_an_equal_plan_changes_nothing(plan):
+def test_an_equal_plan_changes_nothing(plan: FootstepPlan) -> None:
     whole = motion(pattern_of(plan), times_of(plan))
     pattern, com = pattern_of(plan), []
     for k, t in enumerate(times_of(plan)):
@@ -160,7 +163,7 @@ def test_an_equal_plan_changes_nothing(plan):
     assert np.array(com) == pytest.approx(whole.com, abs=1e-9)
 
 
-def test_another_plan_bends_the_motion_without_a_jump():
+def test_another_plan_bends_the_motion_without_a_jump() -> None:
     """A walk of which nothing remains but the step in the air: the CoM slows down and stands."""
     plan = slow_walk(8)
     whole, times = motion(pattern_of(plan), times_of(plan)), times_of(plan)
@@ -179,7 +182,7 @@ def test_another_plan_bends_the_motion_without_a_jump():
     assert com[-1, :2] == pytest.approx((x, y), abs=1e-3)
 
 
-def test_rejoin_starts_at_the_robot_and_comes_back_to_the_plan():
+def test_rejoin_starts_at_the_robot_and_comes_back_to_the_plan() -> None:
     plan = slow_walk()
     whole, times = motion(pattern_of(plan), times_of(plan)), times_of(plan)
     pattern = pattern_of(plan)
@@ -197,9 +200,10 @@ def test_rejoin_starts_at_the_robot_and_comes_back_to_the_plan():
         assert error[int(seconds / DT) :].max() < bound
 
 
-def test_stairs_raise_ground_and_com_alike():
+def test_stairs_raise_ground_and_com_alike() -> None:
+    places: list[tuple[Foot, float]]
     places = [("left", 0.1), ("right", 0.2), ("left", 0.3), ("right", 0.3)]
-    poses = []
+    poses: list[tuple[Foot, Array]] = []
     for k, (foot, z) in enumerate(places):
         x, y = 0.28 * min(k + 1, 3), 0.085 if foot == "left" else -0.085
         poses.append((foot, pose_at(x, y, 0.0, z)))

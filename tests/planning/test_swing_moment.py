@@ -7,9 +7,11 @@ from hypothesis import strategies as st
 
 from preview_walk.planning.cart_table import GRAVITY
 from preview_walk.planning.footstep_planner import FootstepPlanner
+from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.pose import pose_at
 from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.swing_trajectory import swing_of
+from preview_walk.types import Array
 
 MASS, HEIGHT = 90.0, 0.05
 DT = 0.002
@@ -24,27 +26,27 @@ MODEL = MomentumModel(
 )
 
 
-def walk(n_steps=5, yaw=0.0, turn=0.0):
+def walk(n_steps: int = 5, yaw: float = 0.0, turn: float = 0.0) -> FootstepPlan:
     planner = FootstepPlanner(0.3, 0.17, 0.7, 0.2)
     return planner.generate_footsteps(n_steps, (0.3, -0.2, yaw), turn=turn)
 
 
-def times_of(plan):
+def times_of(plan: FootstepPlan) -> Array:
     return np.arange(plan.start, plan.end, DT)
 
 
-def momentum(plan, t):
+def momentum(plan: FootstepPlan, t: float) -> Array:
     """Return L (3,) in the world at time t, from the speed of the sole in the air."""
     step = plan.swing_at(t)
     if step is None:
         return np.zeros(3)
     _, velocity, _ = swing_of(plan, step, HEIGHT).at(t)
     heading = pose_at(0.0, 0.0, step.yaw)[:3, :3]
-    return heading @ MODEL.foot[step.foot] @ heading.T @ velocity[:3]
+    return np.asarray(heading @ MODEL.foot[step.foot] @ heading.T @ velocity[:3])
 
 
 @pytest.mark.parametrize(("yaw", "turn"), [(0.0, 0.0), (2.1, 0.0), (-0.4, 0.2)])
-def test_is_the_rate_of_the_angular_momentum(yaw, turn):
+def test_is_the_rate_of_the_angular_momentum(yaw: float, turn: float) -> None:
     plan, h = walk(yaw=yaw, turn=turn), 1e-5
     times = times_of(plan)
     shift = swing_zmp_shift(plan, times, MODEL, HEIGHT)
@@ -58,7 +60,7 @@ def test_is_the_rate_of_the_angular_momentum(yaw, turn):
         assert shift[k] == pytest.approx(expected, abs=1e-6)
 
 
-def test_no_swing_no_shift_and_a_swing_gives_back_what_it_took():
+def test_no_swing_no_shift_and_a_swing_gives_back_what_it_took() -> None:
     """A foot starts and ends at rest: over a swing the moments cancel."""
     plan = walk(turn=0.1)
     times = times_of(plan)
@@ -72,7 +74,7 @@ def test_no_swing_no_shift_and_a_swing_gives_back_what_it_took():
 
 @settings(max_examples=20)
 @given(st.floats(-3.1, 3.1), st.floats(-50.0, 50.0), st.floats(-50.0, 50.0))
-def test_turns_with_the_walk(yaw, x, y):
+def test_turns_with_the_walk(yaw: float, x: float, y: float) -> None:
     plan = walk(turn=0.15)
     times = times_of(plan)
     turned = swing_zmp_shift(plan.transformed(pose_at(x, y, yaw)), times, MODEL, HEIGHT)
@@ -81,7 +83,7 @@ def test_turns_with_the_walk(yaw, x, y):
     assert turned == pytest.approx(expected, abs=1e-9)
 
 
-def test_does_not_depend_on_when_one_begins_to_look():
+def test_does_not_depend_on_when_one_begins_to_look() -> None:
     plan = walk()
     times = times_of(plan)
     whole = swing_zmp_shift(plan, times, MODEL, HEIGHT)
@@ -90,7 +92,7 @@ def test_does_not_depend_on_when_one_begins_to_look():
         assert (late == whole[first:]).all()
 
 
-def test_effective_height_is_that_of_a_leaning_walker():
+def test_effective_height_is_that_of_a_leaning_walker() -> None:
     """A CoM that moves with L = K @ v needs the ZMP c - (z + k / m) c'' / g, per axis."""
     com_height, acceleration = 0.87, np.array((1.3, -0.7, 0.0))
     rate = MODEL.com @ acceleration

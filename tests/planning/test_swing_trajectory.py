@@ -128,7 +128,7 @@ def test_a_new_landing_makes_no_jump(swing, changes):
         assert np.allclose(velocity, 0.0, atol=1e-6)
         # The end state of a quintic over 20 ms: rounding of 1e-12 m, divided by T^2.
         assert np.allclose(acceleration, 0.0, atol=1e-4)
-        for piece in new._vertical[:-1]:
+        for piece in new.vertical[:-1]:
             before, after = new.at(piece.end - 1e-9), new.at(piece.end + 1e-9)
             assert np.allclose(before[1], after[1], atol=1e-4)
             assert np.allclose(before[2], after[2], atol=1.0)

@@ -8,12 +8,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from preview_walk.robots.contact_sensor import WrenchSensor, add_wrench_sensor, zmp
+from preview_walk.types import Array
 
 MASS, GRAVITY = 20.0, 9.81
 OFFSET = np.array((0.03, -0.02))  # of the box's centre of mass from its middle, m
 
 
-def world(block=False):
+def world(block: bool = False) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return model and data of a box on the floor, with a smaller block on it where asked."""
     spec = mujoco.MjSpec()
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(5.0, 5.0, 1.0), condim=4)
@@ -31,7 +32,7 @@ def world(block=False):
     return model, mujoco.MjData(model)
 
 
-def by_hand(model, data, origin):
+def by_hand(model: mujoco.MjModel, data: mujoco.MjData, origin: Array) -> Array:
     """Return the net wrench on the box about `origin`, summed over the contacts."""
     total, geom = np.zeros(6), model.geom("sole").id
     for index in range(data.ncon):
@@ -48,7 +49,7 @@ def by_hand(model, data, origin):
     return total
 
 
-def read(model, data, origin):
+def read(model: mujoco.MjModel, data: mujoco.MjData, origin: Array) -> Array:
     wrench = np.zeros(6)
     WrenchSensor(model, "sole").read(data, np.asarray(origin, dtype=float), wrench)
     return wrench
@@ -60,7 +61,7 @@ def read(model, data, origin):
     arrays(float, 3, elements=st.floats(-1.0, 1.0)),
     st.booleans(),
 )
-def test_reads_the_sum_of_all_contacts(push, origin, block):
+def test_reads_the_sum_of_all_contacts(push: Array, origin: Array, block: bool) -> None:
     """Any push, any reference point; the sensor's point is MuJoCo's, the sum is ours."""
     model, data = world(block)
     data.xfrc_applied[1] = push * (1.0, 1.0, 1.0, 0.1, 0.1, 0.1)
@@ -71,7 +72,7 @@ def test_reads_the_sum_of_all_contacts(push, origin, block):
 
 
 @pytest.mark.parametrize("block", [False, True])
-def test_a_box_at_rest_is_carried(block):
+def test_a_box_at_rest_is_carried(block: bool) -> None:
     """What the sole feels is its own box's weight, whatever stands on it: the net of both."""
     model, data = world(block)
     mujoco.mj_step(model, data, 2000)
@@ -79,7 +80,7 @@ def test_a_box_at_rest_is_carried(block):
     assert wrench == pytest.approx([0.0, 0.0, MASS * GRAVITY, 0.0, 0.0, 0.0], abs=1e-3)
 
 
-def test_the_zmp_at_rest_is_under_the_centre_of_mass():
+def test_the_zmp_at_rest_is_under_the_centre_of_mass() -> None:
     model, data = world()
     mujoco.mj_step(model, data, 2000)
     wrench, origin = read(model, data, data.xpos[1]), data.xpos[1]
@@ -88,7 +89,7 @@ def test_the_zmp_at_rest_is_under_the_centre_of_mass():
     assert point == pytest.approx(origin[:2] + OFFSET, abs=1e-3)
 
 
-def test_nothing_in_the_air():
+def test_nothing_in_the_air() -> None:
     model, data = world()
     data.qpos[2] += 0.1
     mujoco.mj_step(model, data)
@@ -102,7 +103,9 @@ points = arrays(float, 3, elements=st.floats(-2.0, 2.0))
 
 
 @given(forces, forces, points, points, st.floats(-1.0, 1.0))
-def test_no_horizontal_moment_about_the_zmp(first, second, one, other, height):
+def test_no_horizontal_moment_about_the_zmp(
+    first: Array, second: Array, one: Array, other: Array, height: float
+) -> None:
     assume(first[2] + second[2] > 5.0)
     point = np.append(zmp((first, second), (one, other), height), height)
     moment = np.zeros(3)
@@ -113,7 +116,9 @@ def test_no_horizontal_moment_about_the_zmp(first, second, one, other, height):
 
 
 @given(forces, points, points)
-def test_the_zmp_does_not_care_where_a_wrench_is_taken(wrench, origin, move):
+def test_the_zmp_does_not_care_where_a_wrench_is_taken(
+    wrench: Array, origin: Array, move: Array
+) -> None:
     assume(wrench[2] > 5.0)
     moved = wrench.copy()
     moved[3:] -= np.cross(move, wrench[:3])

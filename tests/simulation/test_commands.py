@@ -164,3 +164,16 @@ def test_a_refused_command_leaves_the_walk_as_it_was(talos: Robot) -> None:
     assert walk.plan is plan
     walk.run(until=3.0)  # replans at the lifts on the way
     assert mean_velocity(walk.record(), 2.0, 2.9) > 0.05
+
+
+def test_a_walk_for_ever_needs_an_end(talos: Robot) -> None:
+    walk = pw.Walk.standing(talos)
+    walk.command(0.2, 0.0, 0.0)
+    with pytest.raises(
+        InvalidInput,
+        match=re.escape(
+            "until must be given while a command is in force, got a walk at (0.2, 0.0, 0.0) "
+            "for ever; command(0, 0, 0) stops it."
+        ),
+    ):
+        walk.run()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pinocchio as pin
@@ -13,7 +14,12 @@ from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.pose import midfeet, pose_at
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import gait_limits, standing_configuration
+from preview_walk.simulation.placing import (
+    at_com_height,
+    command_limits,
+    gait_limits,
+    standing_configuration,
+)
 from preview_walk.types import FEET, Array
 
 
@@ -92,3 +98,38 @@ def test_the_limits_are_those_of_the_robots_legs_and_soles(talos: Robot) -> None
     assert limits.sole.half_width == talos.soles["right"].half_width
     assert 0.5 * talos.leg_length < limits.forward < talos.leg_length
     assert limits == pw.Walk.standing(talos).limits
+
+
+def test_fast_hips_do_not_bound_velocity_commands(talos: Robot) -> None:
+    assert command_limits(talos) == gait_limits(talos)
+
+
+def test_slow_hips_do(talos: Robot) -> None:
+    """Half the speed of the joints, half the turn and the way of a step; sidesteps stay."""
+    hips = np.zeros(len(talos.v_limit), bool)
+    for leg in talos.legs.values():
+        hips[[talos.pin.joints[joint].idx_v - 6 for joint in leg.joints[:3]]] = True
+    once, twice = (
+        command_limits(replace(talos, v_limit=np.where(hips, speed, talos.v_limit)))
+        for speed in (0.4, 0.8)
+    )
+    assert twice.forward == pytest.approx(2.0 * once.forward)
+    assert once.backward == pytest.approx(once.forward)
+    assert twice.turn_out + twice.turn_in == pytest.approx(2.0 * (once.turn_out + once.turn_in))
+    assert once.max_width == gait_limits(talos).max_width
+
+
+@pytest.mark.parametrize("change", [-0.05, 0.02])
+def test_a_com_height_of_ones_own(talos: Robot, change: float) -> None:
+    robot = at_com_height(talos, talos.com_height + change)
+    data, q = placed(robot, stance())
+    assert data.com[0] == pytest.approx((0.0, 0.0, talos.com_height + change), abs=1e-8)
+    assert q[3:7] == pytest.approx(talos.posture[3:7], abs=1e-9)
+    assert robot.com_height == pytest.approx(talos.com_height + change)
+
+
+@pytest.mark.parametrize("height", [0.5, 1.2, np.nan])
+def test_a_com_height_that_the_legs_cannot_give(talos: Robot, height: float) -> None:
+    sentence = f"com_height must be between 0.738 and 0.916 m for the legs of talos, got {height}."
+    with pytest.raises(InvalidInput, match=f"^{re.escape(sentence)}$"):
+        at_com_height(talos, height)

@@ -8,27 +8,28 @@ import pytest
 from preview_walk.planning.cart_table import GRAVITY
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.pose import pose_at
-from preview_walk.planning.swing_moment import swing_zmp_shift
+from preview_walk.planning.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.planning.swing_trajectory import swing_of
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco
 from preview_walk.tracking.momentum_model import momentum_model
-from preview_walk.types import FEET, other
+from preview_walk.types import FEET, Array, Foot, other
 
 WORLD = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
 
 @pytest.fixture(scope="module")
-def robot():
+def robot() -> Robot:
     return load_robot("talos")
 
 
 @pytest.fixture(scope="module")
-def model(robot):
+def model(robot: Robot) -> MomentumModel:
     return momentum_model(robot)
 
 
-def angular_momentum(robot, q, v):
+def angular_momentum(robot: Robot, q: Array, v: Array) -> Array:
     """Return the whole robot's angular momentum (3,) about its CoM, by MuJoCo."""
     data = mujoco.MjData(robot.mj)
     to_mujoco(q, v, data.qpos, data.qvel)
@@ -37,7 +38,9 @@ def angular_momentum(robot, q, v):
     return np.array(data.subtree_angmom[0])
 
 
-def velocity_for(robot, q, swing, foot_velocity, com_velocity):
+def velocity_for(
+    robot: Robot, q: Array, swing: Foot, foot_velocity: Array, com_velocity: Array
+) -> Array:
     """Return the smallest v (nv,) with these velocities (3,), all else of the gait at rest.
 
     By the normal equations of the constraints, found here from Pinocchio's Jacobians.
@@ -47,8 +50,8 @@ def velocity_for(robot, q, swing, foot_velocity, com_velocity):
     pin.updateFramePlacements(robot.pin, data)
     com = pin.jacobianCenterOfMass(robot.pin, data, q)
 
-    def jacobian(frame):
-        return pin.getFrameJacobian(robot.pin, data, frame, WORLD)
+    def jacobian(frame: int) -> Array:
+        return np.asarray(pin.getFrameJacobian(robot.pin, data, frame, WORLD))
 
     rows = np.vstack(
         [
@@ -61,11 +64,13 @@ def velocity_for(robot, q, swing, foot_velocity, com_velocity):
     wanted = np.concatenate([com_velocity, np.zeros(9), foot_velocity, np.zeros(3)])
     v = rows.T @ np.linalg.solve(rows @ rows.T, wanted)
     assert rows @ v == pytest.approx(wanted, abs=1e-9)
-    return v
+    return np.asarray(v)
 
 
 @pytest.mark.parametrize("foot", FEET)
-def test_is_the_momentum_of_a_moving_foot_in_the_posture(robot, model, foot):
+def test_is_the_momentum_of_a_moving_foot_in_the_posture(
+    robot: Robot, model: MomentumModel, foot: Foot
+) -> None:
     for axis in range(3):
         velocity = np.eye(3)[axis]
         v = velocity_for(robot, robot.posture, foot, velocity, np.zeros(3))
@@ -73,7 +78,7 @@ def test_is_the_momentum_of_a_moving_foot_in_the_posture(robot, model, foot):
         assert model.foot[foot] @ velocity == pytest.approx(momentum, abs=1e-6)
 
 
-def test_is_the_momentum_of_a_moving_com_in_the_posture(robot, model):
+def test_is_the_momentum_of_a_moving_com_in_the_posture(robot: Robot, model: MomentumModel) -> None:
     """Half and half of either foot standing, as the model takes it."""
     for axis in range(3):
         velocity = np.eye(3)[axis]
@@ -89,7 +94,7 @@ def test_is_the_momentum_of_a_moving_com_in_the_posture(robot, model):
     assert model.mass == robot.mass
 
 
-def test_a_symmetric_robot_has_a_mirrored_model(model):
+def test_a_symmetric_robot_has_a_mirrored_model(model: MomentumModel) -> None:
     mirror = np.diag((1.0, -1.0, 1.0))
     # Angular momentum is a pseudovector: its mirror image changes sign too.
     mirrored = -mirror @ model.foot["left"] @ mirror
@@ -97,7 +102,9 @@ def test_a_symmetric_robot_has_a_mirrored_model(model):
 
 
 @pytest.mark.parametrize("foot", FEET)
-def test_foresees_the_zmp_shift_of_the_multibody_robot(robot, model, foot):
+def test_foresees_the_zmp_shift_of_the_multibody_robot(
+    robot: Robot, model: MomentumModel, foot: Foot
+) -> None:
     """A small step, CoM and trunk at rest: the robot is moved along it, and L differentiated.
 
     Each configuration is one small integration step from the last; MuJoCo says what L is.
@@ -112,7 +119,8 @@ def test_foresees_the_zmp_shift_of_the_multibody_robot(robot, model, foot):
     plan = FootstepPlan.standing(soles["left"], soles["right"]).replace_after(0.0, [step])
     swing, dt = swing_of(plan, step, height), 0.005
     q, momenta = np.array(robot.posture), []
-    times = step.lift + dt * np.arange(round((step.land - step.lift) / dt) + 1)
+    samples = np.arange(round((step.land - step.lift) / dt) + 1, dtype=np.float64)
+    times: Array = step.lift + dt * samples
     for t in times:
         v = velocity_for(robot, q, foot, swing.at(t)[1][:3], np.zeros(3))
         momenta.append(angular_momentum(robot, q, v))

@@ -1,0 +1,139 @@
+"""The feet: which stand and which swing, by the plan and by what the soles feel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from preview_walk.planning.footsteps import Footstep, FootstepPlan
+from preview_walk.planning.pose import pose_at, yaw_of
+from preview_walk.planning.swing_trajectory import Swing
+from preview_walk.tracking.dynamics import FrameTerms
+from preview_walk.tracking.whole_body import WholeBodyController
+from preview_walk.types import FEET, Array, Foot
+
+CONTACT_FORCE = 0.03
+"""A sole counts as on the ground when it carries this share of the weight."""
+
+TOUCH_FORCE = 0.002
+"""A foot that is due has landed when it carries this share of the weight."""
+
+DESCENT = 0.6
+"""Share of the swing from which a touch is a landing: before it, the foot has hit something."""
+
+PROBE_SPEED = 0.15
+"""Speed (m/s) at which a foot goes on down that has not met the ground when it should have ..."""
+
+PROBE_TIME = 0.15
+"""... for at most this long (s); then it counts as standing."""
+
+RAMP_TIME = 0.02
+"""Time (s) over which a new contact comes to its full load, and a lifting one is freed of it."""
+
+
+@dataclass
+class FootState:
+    """A foot: in contact `since` (s), or on `swing`; `pose` (4, 4) is where it should be."""
+
+    contact: bool
+    since: float
+    swing: Swing | None
+    pose: Array
+
+
+class Feet:
+    """Follows a plan's lifts and landings; the ground decides when a landing is one."""
+
+    def __init__(
+        self, body: WholeBodyController, plan: FootstepPlan, weight: float, swing_height: float
+    ) -> None:
+        """Stand on the plan's first soles; `weight` in N, `swing_height` of the apex in m."""
+        self._body = body
+        self._weight = weight
+        self._swing_height = swing_height
+        self.states = {
+            foot: FootState(True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
+        }
+
+    def __getitem__(self, foot: Foot) -> FootState:
+        """Return the state of a foot."""
+        return self.states[foot]
+
+    def follow(
+        self, t: float, plan: FootstepPlan, normal_force: Mapping[Foot, float]
+    ) -> Foot | None:
+        """Set the foot tasks at t (s); return the foot that touched down before its time, if any.
+
+        `normal_force` (N): what the sole's sensor reads.
+        """
+        step = plan.swing_at(t)
+        early = None
+        for foot, state in self.states.items():
+            load = normal_force[foot] / self._weight
+            if step is not None and step.foot == foot:
+                if self._swing(t, step, state, load > CONTACT_FORCE):
+                    early = foot
+            else:
+                self._stand(t, plan, foot, state, load > TOUCH_FORCE)
+        return early
+
+    def _swing(self, t: float, step: Footstep, state: FootState, touching: bool) -> bool:
+        """Move a foot along its swing; return whether it has just touched down."""
+        foot, swing = step.foot, state.swing
+        if swing is None or swing.lift != step.lift:
+            # From where the foot is, so that no error of this stance goes into the next.
+            terms = self._body.dynamics.feet[foot]
+            x, y, z = terms.position.tolist()
+            start = pose_at(x, y, yaw_of(sole_pose(terms)), z)
+            swing = Swing(start, step.pose, step.lift, step.land, self._swing_height)
+            state.contact = False
+        elif swing.end is not step.pose or swing.land != step.land:
+            swing = swing.retarget(t, step.pose, step.land)
+        descending = t > step.lift + DESCENT * (step.land - step.lift)
+        landed = not state.contact and descending and touching
+        if landed:
+            state.contact, state.since = True, t
+        task = self._body.feet[foot]
+        state.swing = swing
+        state.pose, task.velocity, task.acceleration = swing.at(t)
+        task.pose = state.pose
+        return landed
+
+    def _stand(
+        self, t: float, plan: FootstepPlan, foot: Foot, state: FootState, touching: bool
+    ) -> None:
+        """Keep a foot on the ground, or send it further down until it is there."""
+        state.pose = plan.sole(foot, t)
+        if state.contact:
+            return
+        late = t - state.swing.land if state.swing is not None else PROBE_TIME
+        if touching or late >= PROBE_TIME:
+            state.contact, state.since = True, t
+            return
+        task = self._body.feet[foot]
+        task.pose = state.pose.copy()
+        task.pose[2, 3] -= PROBE_SPEED * late
+        task.velocity = np.array((0.0, 0.0, -PROBE_SPEED, 0.0, 0.0, 0.0))
+        task.acceleration = np.zeros(6)
+
+    def normal_limits(self, t: float, plan: FootstepPlan) -> dict[Foot, float]:
+        """Return the normal force (N) that each foot in contact may carry at t (s)."""
+        lifting = plan.next_lift(t)
+        limits: dict[Foot, float] = {}
+        for foot, state in self.states.items():
+            if not state.contact:
+                continue
+            share = min(1.0, (t - state.since) / RAMP_TIME + 0.02)
+            if lifting is not None and lifting.foot == foot:
+                share = min(share, (lifting.lift - t) / RAMP_TIME + 0.01)
+            limits[foot] = 2.0 * self._weight * share
+        return limits
+
+
+def sole_pose(terms: FrameTerms) -> Array:
+    """Return the measured pose (4, 4) of a sole in the world."""
+    pose = np.zeros((4, 4))
+    pose[:3, :3], pose[:3, 3], pose[3, 3] = terms.rotation, terms.position, 1.0
+    return pose
