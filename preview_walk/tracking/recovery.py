@@ -22,6 +22,9 @@ SWING_PULL = 25.0
 EARLY = 0.05
 """A foot that touches down earlier than planned by more than this (s) has landed where it is."""
 
+CALM = 1.0
+"""So long (s) after the last change of the plan a touchdown ahead of time is part of a recovery."""
+
 AHEAD = 0.025
 """Time (s) for which the error of the DCM is extrapolated: the push that made it still lasts."""
 
@@ -55,6 +58,7 @@ class Recovery:
         self._swing_time = 1.2 * pendulum
         self._due = -np.inf
         self._nominal: Footstep | None = None
+        self._changed = -np.inf
         self._dcm: tuple[float, Array] | None = None
         self._rate: Array = np.zeros(2)
 
@@ -73,13 +77,16 @@ class Recovery:
         else:
             plan = self._swinging(t, pattern, dcm, step, dynamics)
         if plan is not None:
+            self._changed = t
             pattern.plan = plan
             pattern.rejoin(t, dynamics.com[:2])
 
     def touched_down(self, t: float, foot: Foot, pattern: WalkingPattern, pose: Array) -> None:
         """Take a foot that touches the ground at `pose` (4, 4) before its time as landed there."""
         step = pattern.plan.swing_at(t)
-        if step is not None and step.foot == foot and step.land - t > EARLY:
+        if step is None or step.foot != foot or t - self._changed > CALM:
+            return
+        if step.land - t > EARLY:
             pattern.plan = landed_at(pattern.plan, t, pose, t + 1e-4)
 
     def _swinging(

@@ -1,0 +1,60 @@
+"""Pushes in simulation: none, walking, standing."""
+
+from __future__ import annotations
+
+from math import cos, radians, sin
+
+import numpy as np
+import pytest
+
+import preview_walk as pw
+from preview_walk.robots.robot import Robot
+
+
+@pytest.fixture(scope="module")
+def talos() -> Robot:
+    return pw.load_robot("talos")
+
+
+def pushed(robot: Robot, share: float | None, angle: float, impulse: float) -> pw.Walk:
+    """Return a walk pushed while the left foot stands (share of single support), or standing."""
+    planner = pw.FootstepPlanner(0.2, robot.step_width, 0.9, 0.2 / 0.9)
+    plan = planner.generate_footsteps(6 if share is not None else 0)
+    t = 0.3
+    if share is not None:
+        step = next(s for s in plan.steps if s.foot == "right")
+        t = step.lift + share * (step.land - step.lift)
+    force = impulse / 0.2
+    along = (force * cos(radians(angle)), force * sin(radians(angle)), 0.0)
+    walk = pw.Walk(robot, plan, pushes=[pw.Push(t, 0.2, along)])
+    return walk.run(until=t + 3.5)
+
+
+def test_without_a_push_the_plan_stays(talos: Robot):
+    plan = pw.FootstepPlanner(0.25, talos.step_width).generate_footsteps(3)
+    walk = pw.Walk(talos, plan).run(until=plan.end)
+    assert not walk.fallen
+    assert walk.plan is plan
+
+
+@pytest.mark.parametrize(
+    ("share", "angle", "impulse"), [(0.5, 0.0, 50.0), (0.3, -90.0, 30.0), (0.5, 90.0, 30.0)]
+)
+def test_a_walk_survives_a_push(talos: Robot, share: float, angle: float, impulse: float):
+    walk = pushed(talos, share, angle, impulse)
+    assert not walk.fallen
+    assert len(walk.record().plans) > 1
+
+
+def test_ankles_answer_a_small_push_on_a_stand(talos: Robot):
+    walk = pushed(talos, None, 0.0, 15.0)
+    assert not walk.fallen
+    assert walk.plan.steps == ()
+
+
+def test_a_stand_is_left_by_steps_and_stands_again(talos: Robot):
+    walk = pushed(talos, None, 0.0, 42.0)
+    assert not walk.fallen
+    assert len(walk.plan.steps) >= 2
+    assert walk.plan.end < walk.time
+    assert np.linalg.norm(walk.walker.body.dynamics.com_velocity) < 0.05
