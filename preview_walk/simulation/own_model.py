@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import mujoco
 import numpy as np
 
@@ -118,17 +120,27 @@ def _floor(tree: Tree, feet: dict[int, Foot]) -> tuple[float, float]:
         level = tree.data.geom_xmat[plane][8] > 0.9999
         if int(mj.geom_type[plane]) != _PLANE or not level or mj.body_weldid[mj.geom_bodyid[plane]]:
             continue
-        touching = [
-            geom
-            for geom in feet
-            if mj.geom_contype[plane] & mj.geom_conaffinity[geom]
-            or mj.geom_contype[geom] & mj.geom_conaffinity[plane]
-        ]
-        if {feet[geom] for geom in touching} == set(FEET):
-            friction = min(float(mj.geom_friction[geom, 0]) for geom in touching)
-            friction = max(friction, float(mj.geom_friction[plane, 0]))
-            return float(tree.data.geom_xpos[plane][2]), friction
+        friction = _touching(mj, plane, feet)
+        if {feet[geom] for geom in friction} == set(FEET):
+            return float(tree.data.geom_xpos[plane][2]), min(friction.values())
     raise RobotError("the model has no floor: expected a level plane that both feet can touch")
+
+
+def _touching(mj: mujoco.MjModel, plane: int, feet: Collection[int]) -> dict[int, float]:
+    """Return the friction between a plane and those geoms of the feet that can touch it."""
+    kinds, answers = mj.geom_contype, mj.geom_conaffinity
+    slide = mj.geom_friction[:, 0]
+    friction = {
+        geom: float(max(slide[plane], slide[geom]))
+        for geom in feet
+        if kinds[plane] & answers[geom] or kinds[geom] & answers[plane]
+    }
+    for pair in range(mj.npair):  # contacts declared one by one
+        ends = {int(mj.pair_geom1[pair]), int(mj.pair_geom2[pair])}
+        for geom in ends & set(feet):
+            if plane in ends:
+                friction[geom] = float(mj.pair_friction[pair, 0])
+    return friction
 
 
 def _actuators(tree: Tree, joints: Array) -> tuple[Array, Array]:

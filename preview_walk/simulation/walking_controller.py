@@ -40,8 +40,9 @@ class WalkingController:
 
     Attributes:
         robot: what was found in the model.
-        planner: sizes and times of the steps: those of the walking lab, the width the robot's own
-            where its soles are too wide for it. Assign another `FootstepPlanner` to walk otherwise.
+        planner: sizes and times of the steps: those of the walking lab, but a quarter of the leg
+            long for a small robot, and as wide as it stands for one whose soles need more room.
+            Assign another `FootstepPlanner` to walk otherwise.
         plan: the footsteps of the last walk; None before it.
         fall: (time in s, reason) where the robot fell in the last walk, else None.
 
@@ -57,9 +58,8 @@ class WalkingController:
         self.robot = robot if com_height is None else at_com_height(robot, com_height)
         self.model, self.data = model, data
         self._own = OwnModel(self.robot, model, data)
-        self.planner = FootstepPlanner(0.15, 0.1, 0.6)
-        if gait_limits(robot).min_width > self.planner.step_width:
-            self.planner = FootstepPlanner(0.15, robot.step_width, 0.6)
+        width = 0.1 if gait_limits(robot).min_width <= 0.1 else robot.step_width
+        self.planner = FootstepPlanner(min(0.15, 0.25 * robot.leg_length), width, 0.6)
         self.plan: FootstepPlan | None = None
         self.fall: tuple[float, str] | None = None
 

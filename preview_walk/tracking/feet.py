@@ -23,11 +23,14 @@ TOUCH_FORCE = 0.002
 DESCENT = 0.6
 """Share of the swing from which a touch is a landing: before it, the foot has hit something."""
 
+GRACE = 0.02
+"""A foot that is due counts as standing for this long (s) before the ground must be felt ..."""
+
 PROBE_SPEED = 0.15
-"""Speed (m/s) at which a foot goes on down that has not met the ground when it should have ..."""
+"""... else it goes on down at this speed (m/s) ..."""
 
 PROBE_TIME = 0.15
-"""... for at most this long (s); then it counts as standing."""
+"""... until this long (s) after it was due; then it counts as standing."""
 
 RAMP_TIME = 0.02
 """Time (s) over which a new contact comes to its full load, and a lifting one is freed of it."""
@@ -35,9 +38,13 @@ RAMP_TIME = 0.02
 
 @dataclass
 class FootState:
-    """A foot: in contact `since` (s), or on `swing`; `pose` (4, 4) is where it should be."""
+    """A foot: in contact `since` (s), or on `swing`; `pose` (4, 4) is where it should be.
+
+    `felt`: whether it has felt the ground since its last lift.
+    """
 
     contact: bool
+    felt: bool
     since: float
     swing: Swing | None
     pose: Array
@@ -54,7 +61,7 @@ class Feet:
         self._weight = weight
         self._swing_height = swing_height
         self.states = {
-            foot: FootState(True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
+            foot: FootState(True, True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
         }
 
     def __getitem__(self, foot: Foot) -> FootState:
@@ -88,13 +95,13 @@ class Feet:
             x, y, z = terms.position.tolist()
             start = pose_at(x, y, yaw_of(sole_pose(terms)), z)
             swing = Swing(start, step.pose, step.lift, step.land, self._swing_height)
-            state.contact = False
+            state.contact = state.felt = False
         elif swing.end is not step.pose or swing.land != step.land:
             swing = swing.retarget(t, step.pose, step.land)
         descending = t > step.lift + DESCENT * (step.land - step.lift)
         landed = not state.contact and descending and touching
         if landed:
-            state.contact, state.since = True, t
+            state.contact, state.felt, state.since = True, True, t
         task = self._body.feet[foot]
         state.swing = swing
         state.pose, task.velocity, task.acceleration = swing.at(t)
@@ -106,12 +113,13 @@ class Feet:
     ) -> None:
         """Keep a foot on the ground, or send it further down until it is there."""
         state.pose = plan.sole(foot, t)
-        if state.contact:
+        state.felt |= touching
+        late = np.inf if state.swing is None else t - state.swing.land
+        if state.felt or not GRACE < late < PROBE_TIME:
+            if not state.contact:
+                state.contact, state.since = True, t
             return
-        late = t - state.swing.land if state.swing is not None else PROBE_TIME
-        if touching or late >= PROBE_TIME:
-            state.contact, state.since = True, t
-            return
+        state.contact = False
         task = self._body.feet[foot]
         task.pose = state.pose.copy()
         task.pose[2, 3] -= PROBE_SPEED * late

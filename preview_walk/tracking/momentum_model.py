@@ -16,7 +16,7 @@ import pinocchio as pin
 
 from preview_walk.planning.swing_moment import MomentumModel
 from preview_walk.robots.robot import Robot
-from preview_walk.types import FEET, Foot, other
+from preview_walk.types import FEET, Array, Foot, other
 
 _WORLD = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
@@ -41,12 +41,10 @@ def momentum_model(robot: Robot) -> MomentumModel:
     return MomentumModel(robot.mass, com, feet)
 
 
-def _of_swing(
-    robot: Robot, data: pin.Data, centroidal: np.ndarray, swing: Foot
-) -> tuple[np.ndarray, np.ndarray]:
+def _of_swing(robot: Robot, data: pin.Data, centroidal: Array, swing: Foot) -> tuple[Array, Array]:
     """Return L per velocity of the swing foot (3, 3) and per velocity of the CoM (3, 3)."""
 
-    def jacobian(frame: int) -> np.ndarray:
+    def jacobian(frame: int) -> Array:
         return np.asarray(pin.getFrameJacobian(robot.pin, data, frame, _WORLD))
 
     motion = np.linalg.pinv(
