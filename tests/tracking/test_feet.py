@@ -35,7 +35,7 @@ def lift(feet: Feet, plan: FootstepPlan) -> None:
     """Take the first step, of the left foot, to the end of its swing."""
     step = plan.steps[0]
     assert step.foot == "left"
-    for t in np.arange(step.lift, step.land, 0.01):
+    for t in np.linspace(step.lift, step.land - 0.005, 60):
         assert feet.follow(float(t), plan, RIGHT_ONLY) is None
     assert not feet["left"].contact
     assert feet["right"].contact
