@@ -80,5 +80,5 @@ def test_a_foot_that_misses_the_ground_goes_on_down_until_it_is_there(
 
 def test_a_ground_never_felt_is_believed_in_the_end(feet: Feet, plan: FootstepPlan) -> None:
     lift(feet, plan)
-    feet.follow(plan.steps[0].land + PROBE_TIME, plan, RIGHT_ONLY)
+    feet.follow(plan.steps[0].land + PROBE_TIME + 1e-3, plan, RIGHT_ONLY)
     assert feet["left"].contact
