@@ -1,6 +1,5 @@
 """The reports: catalogue table and inspection."""
 
-import os
 
 import numpy as np
 import pytest
@@ -52,9 +51,6 @@ def test_one_leg_torques_hold_the_weight(name):
     assert rolls[1] < 0.5 * robot.mass * 9.81 * robot.step_width * 1.5
 
 
-@pytest.mark.skipif(
-    "MUJOCO_GL" not in os.environ, reason="needs MUJOCO_GL to draw without a screen"
-)
 def test_the_picture_shows_robot_and_soles(tmp_path):
     from matplotlib.image import imread
 
