@@ -1,6 +1,5 @@
 """The reports: catalogue table and inspection."""
 
-
 import numpy as np
 import pytest
 
