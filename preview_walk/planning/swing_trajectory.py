@@ -76,7 +76,7 @@ class Swing:
         swing_height: height (m) of the apex above the higher of the two soles.
         ground_clearance: height (m) of the sole centre above the straight line from one sole
             centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
-            apex is raised where `swing_height` alone does not give it.
+            apex is raised where `swing_height` alone does not.
         plane, vertical: the quintics of x, y, yaw, pitch, roll; those of the height in time.
 
     Raises:
