@@ -15,7 +15,7 @@ from preview_walk.planning.footsteps import FootstepPlan
 from preview_walk.planning.velocity import follow_velocity, saturated
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import gait_limits, standing_configuration
+from preview_walk.simulation.placing import command_limits, standing_configuration
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.record import Record
 from preview_walk.simulation.recorder import Recorder
@@ -93,7 +93,7 @@ class Walk:
         self.world.place(q)
         self.world.data.time = plan.start
         self.walker = Walker(robot, plan, q, friction, gains, solver)
-        self.limits = gait_limits(robot)
+        self.limits = command_limits(robot)
         self._command = (0.0, 0.0, 0.0)
         self._obey_at = np.inf
         self._schedule: list[tuple[float, Command]] = []
