@@ -46,11 +46,20 @@ SPEED_SHARE, PULL_SHARE = (0.53, 0.07), (0.173, 0.45)
 top acceleration times that squared; a foot under way gets further by the second shares of its speed
 times the time left."""
 
+CATCH = 0.3
+"""Share that is used of the DCM offset which one more step, as quick as it can be, would catch."""
+
+DROP = 40.0
+"""Acceleration (m/s^2) with which the swing foot may come down."""
+
 TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
 
 LATEST = 0.08
-"""A landing nearer than this (s) is not changed any more."""
+"""A landing nearer than this (s) is not changed any more ..."""
+
+RELIFT = 0.18
+"""... unless the foot rises again: then it takes this long (s) at least."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +108,7 @@ def adapt_step(
         limits: what a recovery step may be.
     """
     step = plan.swing_at(t)
-    if step is None or step.land - t < LATEST:
+    if step is None:
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
     pause = following.lift - step.land if following is not None else plan.settle
@@ -134,7 +143,7 @@ def _best(
     mean: Array,
     low: Array,
     high: Array,
-) -> FootstepPlan:
+) -> FootstepPlan | None:
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes, origin = stance[:2, :2], stance[:2, 3]
     side = 1.0 if step.foot == "left" else -1.0
@@ -145,10 +154,14 @@ def _best(
     start = (dcm - origin) @ axes
     now, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
 
-    first = max(t + LATEST, step.lift + limits.swing_time[0])
+    height = max(0.0, float(swing[0][2] - step.pose[2, 3]))
+    drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
+    late = step.land - t < LATEST
+    first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
     land = np.append(
-        np.linspace(first, last, TIMES), (max(nominal.land, first), max(step.land, first))
+        np.linspace(first, last, TIMES),
+        (max(nominal.land, first), step.land if late else max(step.land, first)),
     )
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
@@ -161,6 +174,8 @@ def _best(
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     place_low = np.clip(now - behind, reach_low, reach_high)
     place_high = np.clip(now + ahead, reach_low, reach_high)
+    if late:  # the foot may also come down where and when it was about to
+        place_low[-1] = place_high[-1] = current
 
     # foothold + offset' = start tau - (mean + delta) (tau - 1): the DCM at landing.
     free = start * tau - mean * (tau - 1.0)
@@ -168,7 +183,7 @@ def _best(
     delta = np.zeros_like(free)
     place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
     carry = np.zeros_like(free)
-    room = CARRY * np.array(limits.zmp)
+    carry_low, carry_high = _carried(limits, side, offset)
     w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
     for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
@@ -179,15 +194,39 @@ def _best(
         delta = np.clip(
             w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high
         )
-        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), -room, room)
+        carry = np.clip(
+            w * (free - lever * delta - offset - place) / (w + c), carry_low, carry_high
+        )
     miss = free - lever * delta - offset - carry - place
     cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
     cost += k * ((place - current) ** 2).sum(axis=1)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
+    if late and best == len(land) - 1:
+        return None
     x, y = place[best].tolist()
     heading = heading_of(stance)
     turn = heading_of(step.pose)[2] - heading[2]
     sole = gait.clamp(step.foot, heading, compose(heading, x, y, turn))
     pose = pose_at(*sole, float(step.pose[2, 3]))
     return landed_at(plan, t, pose, float(land[best]))
+
+
+def _carried(limits: StepLimits, side: float, offset: Array) -> tuple[Array, Array]:
+    """Return how far (2,) below and above the plan's DCM offset the next step can still catch it.
+
+    The next step brings the DCM back to its foot from offsets up to its reach, shrunk by the growth
+    of the DCM meanwhile, and the sole's half size, by its ZMP; beyond the outer edge it cannot.
+    Axes of the stance foot; `side`: 1 where the left foot is in the air, else -1.
+    """
+    gait, half = limits.gait, np.array(limits.zmp)
+    decay = exp(-limits.omega * (limits.swing_time[0] + SHORT_PAUSE))
+    ankle = (1.0 - decay) * half
+    back, inner = decay * gait.backward + ankle[0], decay * gait.max_width + ankle[1]
+    ahead, outer = decay * gait.forward + ankle[0], ankle[1]
+    # The foot that lands has its inner side where the other one is.
+    low, high = (inner, outer) if side > 0 else (outer, inner)
+    return (
+        np.minimum(-CATCH * np.array((back, low)) - offset, -CARRY * half),
+        np.maximum(CATCH * np.array((ahead, high)) - offset, CARRY * half),
+    )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import cos, isfinite, sin
+from math import cos, hypot, isfinite, sin
 
 import numpy as np
 
@@ -164,7 +164,8 @@ class Swing:
         """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
 
         Position, velocity and acceleration are continuous at t.  A foot that still rises goes
-        over an apex high enough for the new sole too; one that comes down goes to it directly.
+        over an apex high enough for the new sole too; one that comes down goes to it directly,
+        or, when it is nearly down and the sole is elsewhere, rises again by the ground clearance.
         Where a later landing would make it overshoot or dip into the ground, it finishes its old
         motion and waits there.  The new swing knows nothing of the times before t.
 
@@ -203,11 +204,16 @@ class Swing:
         piece = self._height(t)
         now, target = piece.at(t), sum(piece.coefficients)
         apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
-        if len(self.vertical) == 2 and t < piece.end < self.land and target > old - 1e-9:
+        if len(self.vertical) == 2 and t < piece.end < self.land and target > now[0]:
             top = t + (piece.end - t) * (land - t) / (self.land - t)
+            if target < old - 1e-9:
+                apex = target  # it rises for the second time, as high as it must
             if apex > target + 1e-9:
                 top = max(top, t + 0.35 * (land - t))
             return _over(t, now, top, max(apex, target), land, z1)
+        moved = hypot(*(float(end[i, 3] - self.end[i, 3]) for i in (0, 1)))
+        if now[0] < z1 + 0.25 * self.ground_clearance and moved > self.ground_clearance:
+            return _over(t, now, t + 0.4 * (land - t), z1 + self.ground_clearance, land, z1)
         direct = Quintic.between(t, land, now, (z1, 0.0, 0.0))
         floor = min(z1, now[0]) - DIP
         dips = any(direct.at(t + 0.1 * k * (land - t))[0] < floor for k in range(1, 10))

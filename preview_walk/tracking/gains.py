@@ -19,15 +19,15 @@ class TrackingGains:
     - `wrench_weight`: regularises the contact wrenches (per (100 N)^2).
     """
 
-    dcm: float = 10.0
+    dcm: float = 20.0
     height: float = 10.0
     foot: float = 25.0
     torso: float = 12.0
     posture: float = 8.0
     momentum: float = 5.0
-    com_weight: float = 10.0
-    foot_weight: float = 10.0
-    torso_weight: float = 3.0
+    com_weight: float = 100.0
+    foot_weight: float = 100.0
+    torso_weight: float = 2.0
     posture_weight: float = 0.002
     trunk_weight: float = 0.2
     momentum_weight: float = 0.0

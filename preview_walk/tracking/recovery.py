@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, WalkingPattern
@@ -14,7 +16,7 @@ from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_s
 from preview_walk.planning.support import Sole
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
-from preview_walk.types import Array, Foot
+from preview_walk.types import Array, Foot, other
 
 SWING_PULL = 25.0
 """Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
@@ -25,11 +27,19 @@ EARLY = 0.05
 CALM = 1.0
 """So long (s) after the last change of the plan a touchdown ahead of time is part of a recovery."""
 
-AHEAD = 0.025
-"""Time (s) for which the error of the DCM is extrapolated: the push that made it still lasts."""
+AHEAD, AHEAD_STANDING = 0.025, 0.05
+"""Times (s) for which a push is taken to last, with one foot in the air and with both down, where
+a step comes later by the time it takes to unload the foot."""
 
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
+
+FORWARD, BACKWARD, ASIDE = 0.7, 0.5, 0.65
+"""Reach of a recovery step over the leg's length; aside, beyond the feet's normal distance."""
+
+OUTWARD = 0.3
+"""Share of the tolerance by which the DCM's error may be outward of the foot that stands next for
+the other one still to hurry: lifted, it could not catch it."""
 
 
 class Recovery:
@@ -43,9 +53,9 @@ class Recovery:
         self.limits = StepLimits(
             replace(
                 gait,
-                forward=0.7 * leg,
-                backward=0.5 * leg,
-                max_width=robot.step_width + 0.47 * leg,
+                forward=FORWARD * leg,
+                backward=BACKWARD * leg,
+                max_width=robot.step_width + ASIDE * leg,
             ),
             omega,
             (HOLD * half.half_length, HOLD * half.half_width),
@@ -60,26 +70,48 @@ class Recovery:
         self._nominal: Footstep | None = None
         self._changed = -np.inf
         self._dcm: tuple[float, Array] | None = None
-        self._rate: Array = np.zeros(2)
+        self._push: Array = np.zeros(2)
 
-    def answer(self, t: float, pattern: WalkingPattern, dynamics: Dynamics) -> None:
+    def answer(
+        self,
+        t: float,
+        pattern: WalkingPattern,
+        dynamics: Dynamics,
+        contact: Mapping[Foot, bool],
+        zmp: Array,
+    ) -> None:
         """Replace the pattern's plan where the state measured at t (s) asks for another."""
         if t < self._due:
             return
         self._due = t + PLANNING_DT - 1e-9
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
         if self._dcm is not None:
-            self._rate = (dcm - self._dcm[1]) / (t - self._dcm[0])
+            drift = pattern.omega * (0.5 * (dcm + self._dcm[1]) - zmp)
+            self._push = (dcm - self._dcm[1]) / (t - self._dcm[0]) - drift
         self._dcm = t, dcm
-        step = pattern.plan.swing_at(t)
-        if step is None:
-            plan = self._standing(t, pattern, dcm)
-        else:
-            plan = self._swinging(t, pattern, dcm, step, dynamics)
+        plan = self._revised(t, pattern, dcm, dynamics, contact)
         if plan is not None:
             self._changed = t
             pattern.plan = plan
             pattern.rejoin(t, dynamics.com[:2])
+
+    def _revised(
+        self,
+        t: float,
+        pattern: WalkingPattern,
+        dcm: Array,
+        dynamics: Dynamics,
+        contact: Mapping[Foot, bool],
+    ) -> FootstepPlan | None:
+        step = pattern.plan.swing_at(t)
+        try:
+            if step is None:
+                return self._standing(t, pattern, dcm)
+            if contact[step.foot]:
+                return None
+            return self._swinging(t, pattern, dcm, step, dynamics)
+        except InvalidInput:
+            return None  # steps that no plan may have are no answer: the walk goes on as it was
 
     def touched_down(self, t: float, foot: Foot, pattern: WalkingPattern, pose: Array) -> None:
         """Take a foot that touches the ground at `pose` (4, 4) before its time as landed there."""
@@ -98,17 +130,24 @@ class Recovery:
         settle = pattern.plan.settle
         pause = settle if following is None else min(settle, following.lift - step.land)
         sole = dynamics.feet[step.foot]
-        later = pattern.planned_dcm(t + PLANNING_DT)
-        planned_rate = (later - pattern.planned_dcm(t)) / PLANNING_DT
         return adapt_step(
             pattern.plan,
             t,
-            dcm + AHEAD * (self._rate - planned_rate),
+            dcm + AHEAD * self._push,
             (pattern.planned_dcm(t), pattern.planned_dcm(step.land + 0.5 * pause)),
             (sole.position, sole.rotation @ sole.velocity[:3]),
             self._nominal,
             self.limits,
         )
+
+    def _runs_out(self, t: float, plan: FootstepPlan, error: Array) -> bool:
+        """Return whether the DCM's error is outward over the foot that stands next."""
+        step = plan.next_lift(t)
+        if step is None:
+            return False
+        stance = plan.sole(other(step.foot), t)
+        side = 1.0 if step.foot == "left" else -1.0
+        return -side * float(error @ stance[:2, 1]) > OUTWARD * self.limits.tolerance
 
     def _standing(self, t: float, pattern: WalkingPattern, dcm: Array) -> FootstepPlan | None:
         error = np.abs(dcm - pattern.planned_dcm(t)).max()
@@ -116,11 +155,11 @@ class Recovery:
             return None
         limits = self.limits
         # A push lasts: the step is for where the DCM will be, not for where it is.
-        ahead = dcm + AHEAD * self._rate
+        ahead = dcm + AHEAD_STANDING * self._push
         sole, time = self._stand_sole, self._swing_time
         out = stepped_out(pattern.plan, t, ahead, sole, limits.gait, limits.omega, time)
         if out is None:
             out = waiting(pattern.plan, t, dcm)
-        if out is None:
+        if out is None and not self._runs_out(t, pattern.plan, dcm - pattern.planned_dcm(t)):
             out = hastened(pattern.plan, t)
         return None if out is pattern.plan else out

@@ -22,7 +22,7 @@ from preview_walk.types import FEET, Array, Foot
 SWING_HEIGHT = 0.06
 """Height of the swing foot's apex over the leg's length."""
 
-LEAN = 0.04
+LEAN = 0.03
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
 give, trunk and arms do by their angular momentum."""
 
@@ -63,6 +63,7 @@ class Walker:
         self.feet = Feet(self.body, plan, self.weight, self.swing_height)
         self.recovery = Recovery(robot, self.pattern.omega)
         self.reference: ComReference | None = None
+        self._zmp: Array = self.body.dynamics.com[:2].copy()
 
     @property
     def plan(self) -> FootstepPlan:
@@ -81,7 +82,8 @@ class Walker:
         """
         body = self.body
         body.update(q, v)
-        self.recovery.answer(t, self.pattern, body.dynamics)
+        contact = {foot: self.feet[foot].contact for foot in FEET}
+        self.recovery.answer(t, self.pattern, body.dynamics, contact, self._zmp)
         early = self.feet.follow(t, self.plan, normal_force)
         if early is not None:
             pose = sole_pose(body.dynamics.feet[early])
@@ -108,6 +110,7 @@ class Walker:
         shift = reference.zmp - cart
         soles = [sole_pose(dynamics.feet[f]) for f in FEET if self.feet[f].contact]
         if soles:
+            self._zmp = within_support(zmp + shift, soles, self.sole)
             zmp = within_support(zmp + shift, soles, self._reach) - shift
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
