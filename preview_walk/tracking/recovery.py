@@ -160,6 +160,6 @@ class Recovery:
         out = stepped_out(pattern.plan, t, ahead, sole, limits.gait, limits.omega, time)
         if out is None:
             out = waiting(pattern.plan, t, dcm)
-        if out is None and not self._runs_out(t, pattern.plan, dcm - pattern.planned_dcm(t)):
+        if out is None and not self._runs_out(t, pattern.plan, ahead - pattern.planned_dcm(t)):
             out = hastened(pattern.plan, t)
         return None if out is pattern.plan else out

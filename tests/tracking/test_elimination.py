@@ -51,7 +51,9 @@ def test_any_wrench_comes_with_consistent_dynamics(talos: Robot, watched: tuple[
         w = np.concatenate([200.0 * rng.standard_normal(p.nf), rng.standard_normal(len(watched))])
         e.expand(w)
         residual = p.forces(e.acceleration, w[: p.nf])[:6]
-        assert np.abs(residual).max() <= 1e-5 * 9.81 * talos.mass
+        # Wild wrenches ask for accelerations of 1e4 rad/s^2: the bound is to the forces at play.
+        inertia = float(np.abs(p.mass @ e.acceleration).max())
+        assert np.abs(residual).max() <= 1e-6 * max(9.81 * talos.mass, inertia)
 
 
 def test_watched_torques_take_their_values(talos: Robot) -> None:
