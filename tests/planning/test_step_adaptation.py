@@ -11,7 +11,7 @@ from preview_walk.planning.footstep_planner import FootstepPlanner
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import pose_at, yaw_of
-from preview_walk.planning.step_adaptation import LATEST, StepLimits, adapt_step
+from preview_walk.planning.step_adaptation import DROP, LATEST, RELIFT, StepLimits, adapt_step
 from preview_walk.planning.support import Sole
 from preview_walk.types import Array, other
 
@@ -68,6 +68,33 @@ def test_a_standing_or_a_landing_foot_is_left_alone():
     for t in (step.land + 0.05, step.land - 0.5 * LATEST):
         dcm = planned(plan, step, t)
         assert adapt_step(plan, t, dcm[0] + far, dcm, here, step, LIMITS) is None
+
+
+def test_a_foot_about_to_land_rises_again_for_a_push_to_its_side_only():
+    plan, step, _ = walk()
+    t = step.land - 0.5 * LATEST
+    dcm, here = planned(plan, step, t), (step.pos, np.zeros(3))
+    outward = 1.0 if step.foot == "left" else -1.0
+    assert adapt_step(plan, t, dcm[0] + (0.0, 0.02 * outward), dcm, here, step, LIMITS) is None
+    new = adapt_step(plan, t, dcm[0] + (0.0, 0.15 * outward), dcm, here, step, LIMITS)
+    assert new is not None
+    changed = new.steps[3]
+    assert changed.land >= t + RELIFT - 1e-9
+    assert outward * (changed.pos - step.pos)[1] > 0.05
+
+
+@pytest.mark.parametrize("height", [0.0, 0.03, 0.06])
+def test_a_foot_is_not_set_down_faster_than_it_can_fall(height: float):
+    plan, step, t = walk()
+    t = step.lift + LIMITS.swing_time[0]
+    dcm = planned(plan, step, t)
+    here = 0.5 * (plan.start_pose(step)[:3, 3] + step.pos) + (0.0, 0.0, height)
+    side = -1.0 if step.foot == "left" else 1.0
+    error = np.array((0.0, 0.09 * side))
+    new = adapt_step(plan, t, dcm[0] + error, dcm, (here, np.zeros(3)), step, LIMITS)
+    assert new is not None
+    drop = np.sqrt(height / (np.sqrt(3.0) / 10.0 * DROP))
+    assert new.steps[3].land - t >= max(LATEST, 0.99 * drop)
 
 
 @pytest.mark.parametrize("angle", np.arange(0.0, 360.0, 30.0))

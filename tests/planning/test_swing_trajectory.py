@@ -164,6 +164,18 @@ def test_a_goal_that_moves_at_every_tick_is_reached():
     assert min(heights) > -1e-3
 
 
+def test_a_foot_nearly_down_rises_again_on_its_way_to_another_sole():
+    swing = Swing(pose_at(0.0, 0.0), pose_at(0.5, 0.0), 0.0, 0.6)
+    new = swing.retarget(0.55, pose_at(0.5, -0.2), 0.75)
+    times = np.linspace(0.55, 0.75, 50).tolist()
+    z = np.array([new.at(t)[0][2, 3] for t in times])
+    assert z.max() == pytest.approx(swing.ground_clearance, abs=1e-3)
+    assert z.min() > -1e-3
+    halfway = new.retarget(0.6, pose_at(0.5, -0.22), 0.75)
+    assert max(halfway.at(t)[0][2, 3] for t in times[10:]) < 1.1 * swing.ground_clearance
+    assert halfway.at(0.75)[0][1, 3] == pytest.approx(-0.22)
+
+
 @given(st.floats(0.05, 0.95), st.floats(0.02, 1.0), st.floats(-0.05, 0.05))
 def test_a_delayed_foot_does_not_dip_into_the_ground(share, delay, rise):
     swing = Swing(pose_at(0.0, 0.0), pose_at(0.5, 0.0), 0.0, 0.6)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import preview_walk as pw
+from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
 
 
@@ -38,12 +39,34 @@ def test_without_a_push_the_plan_stays(talos: Robot):
 
 
 @pytest.mark.parametrize(
-    ("share", "angle", "impulse"), [(0.5, 0.0, 50.0), (0.3, -90.0, 30.0), (0.5, 90.0, 30.0)]
+    ("share", "angle", "impulse"),
+    [
+        (0.5, 0.0, 55.0),
+        (0.3, -90.0, 40.0),
+        (0.5, 90.0, 33.0),
+        (0.9, -90.0, 43.0),
+        (0.9, 180.0, 60.0),
+    ],
 )
 def test_a_walk_survives_a_push(talos: Robot, share: float, angle: float, impulse: float):
     walk = pushed(talos, share, angle, impulse)
     assert not walk.fallen
     assert len(walk.record().plans) > 1
+
+
+def test_a_sideways_push_on_a_stand_is_stepped_out_of(talos: Robot):
+    walk = pushed(talos, None, 90.0, 47.0)
+    assert not walk.fallen
+
+
+def test_steps_that_no_plan_may_have_are_no_answer(talos: Robot, monkeypatch: pytest.MonkeyPatch):
+    def refused(*_: object) -> None:
+        raise InvalidInput("step 7 must be taken by the left foot.")
+
+    monkeypatch.setattr("preview_walk.tracking.recovery.adapt_step", refused)
+    walk = pushed(talos, 0.5, 0.0, 20.0)
+    assert not walk.fallen
+    assert len(walk.record().plans) == 1
 
 
 def test_ankles_answer_a_small_push_on_a_stand(talos: Robot):
