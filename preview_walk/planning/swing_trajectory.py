@@ -204,7 +204,8 @@ class Swing:
         piece = self._height(t)
         now, target = piece.at(t), sum(piece.coefficients)
         apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
-        if len(self.vertical) == 2 and t < piece.end < self.land and target > now[0]:
+        rising = target > min(old - 1e-9, now[0])
+        if len(self.vertical) == 2 and t < piece.end < self.land and rising:
             top = t + (piece.end - t) * (land - t) / (self.land - t)
             if target < old - 1e-9:
                 apex = target  # it rises for the second time, as high as it must

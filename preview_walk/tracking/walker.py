@@ -110,7 +110,7 @@ class Walker:
         shift = reference.zmp - cart
         soles = [sole_pose(dynamics.feet[f]) for f in FEET if self.feet[f].contact]
         if soles:
-            self._zmp = within_support(zmp + shift, soles, self.sole)
+            self._zmp = within_support(zmp + shift, soles, self.sole) - shift
             zmp = within_support(zmp + shift, soles, self._reach) - shift
         acceleration = np.zeros(3)
         acceleration[:2] = omega**2 * (com - zmp)
