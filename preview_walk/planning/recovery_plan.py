@@ -61,7 +61,7 @@ def waiting(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | None:
     step = plan.next_lift(t)
     if step is None:
         return None
-    if _outward(plan, t, step.foot, dcm) <= 0.0:
+    if outward(plan, t, step.foot, dcm) <= 0.0:
         return None
     soonest = t + 2.0 * UNLOAD
     if not t + UNLOAD < step.lift < soonest:
@@ -128,7 +128,7 @@ def stepped_out(
     return plan.replace_after(t, [first, second, *_moved(later, move, delay)])
 
 
-def _outward(plan: FootstepPlan, t: float, foot: Foot, dcm: Array) -> float:
+def outward(plan: FootstepPlan, t: float, foot: Foot, dcm: Array) -> float:
     """Return how far (m) the DCM is beyond the sole that stands while `foot` steps."""
     stance = plan.sole(other(foot), t)
     side = 1.0 if foot == "left" else -1.0

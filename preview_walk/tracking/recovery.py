@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +11,19 @@ from preview_walk.errors import InvalidInput
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pattern import PLANNING_DT, WalkingPattern
-from preview_walk.planning.recovery_plan import hastened, landed_at, stepped_out, waiting
+from preview_walk.planning.recovery_plan import (
+    hastened,
+    landed_at,
+    outward,
+    stepped_out,
+    waiting,
+)
 from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
 from preview_walk.planning.support import Sole
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
-from preview_walk.types import Array, Foot, other
+from preview_walk.tracking.feet import Feet
+from preview_walk.types import Array, Foot
 
 SWING_PULL = 25.0
 """Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
@@ -77,10 +84,14 @@ class Recovery:
         t: float,
         pattern: WalkingPattern,
         dynamics: Dynamics,
-        contact: Mapping[Foot, bool],
+        feet: Feet,
         zmp: Array,
     ) -> None:
-        """Replace the pattern's plan where the state measured at t (s) asks for another."""
+        """Replace the pattern's plan where the state measured at t (s) asks for another.
+
+        `zmp`: (2,) m, the point that drives the DCM, xi' = omega (xi - zmp), as last asked of the
+        soles; what else the DCM does is the push.
+        """
         if t < self._due:
             return
         self._due = t + PLANNING_DT - 1e-9
@@ -89,7 +100,7 @@ class Recovery:
             drift = pattern.omega * (0.5 * (dcm + self._dcm[1]) - zmp)
             self._push = (dcm - self._dcm[1]) / (t - self._dcm[0]) - drift
         self._dcm = t, dcm
-        plan = self._revised(t, pattern, dcm, dynamics, contact)
+        plan = self._revised(t, pattern, dcm, dynamics, feet)
         if plan is not None:
             self._changed = t
             pattern.plan = plan
@@ -101,13 +112,13 @@ class Recovery:
         pattern: WalkingPattern,
         dcm: Array,
         dynamics: Dynamics,
-        contact: Mapping[Foot, bool],
+        feet: Feet,
     ) -> FootstepPlan | None:
         step = pattern.plan.swing_at(t)
         try:
             if step is None:
                 return self._standing(t, pattern, dcm)
-            if contact[step.foot]:
+            if feet[step.foot].contact:
                 return None
             return self._swinging(t, pattern, dcm, step, dynamics)
         except InvalidInput:
@@ -119,7 +130,8 @@ class Recovery:
         if step is None or step.foot != foot or t - self._changed > CALM:
             return
         if step.land - t > EARLY:
-            pattern.plan = landed_at(pattern.plan, t, pose, t + 1e-4)
+            with suppress(InvalidInput):  # as in `_revised`
+                pattern.plan = landed_at(pattern.plan, t, pose, t + 1e-4)
 
     def _swinging(
         self, t: float, pattern: WalkingPattern, dcm: Array, step: Footstep, dynamics: Dynamics
@@ -140,26 +152,19 @@ class Recovery:
             self.limits,
         )
 
-    def _runs_out(self, t: float, plan: FootstepPlan, error: Array) -> bool:
-        """Return whether the DCM's error is outward over the foot that stands next."""
-        step = plan.next_lift(t)
-        if step is None:
-            return False
-        stance = plan.sole(other(step.foot), t)
-        side = 1.0 if step.foot == "left" else -1.0
-        return -side * float(error @ stance[:2, 1]) > OUTWARD * self.limits.tolerance
-
     def _standing(self, t: float, pattern: WalkingPattern, dcm: Array) -> FootstepPlan | None:
-        error = np.abs(dcm - pattern.planned_dcm(t)).max()
-        if error <= self.limits.tolerance:
+        plan, limits, planned = pattern.plan, self.limits, pattern.planned_dcm(t)
+        if np.abs(dcm - planned).max() <= limits.tolerance:
             return None
-        limits = self.limits
         # A push lasts: the step is for where the DCM will be, not for where it is.
         ahead = dcm + AHEAD_STANDING * self._push
         sole, time = self._stand_sole, self._swing_time
-        out = stepped_out(pattern.plan, t, ahead, sole, limits.gait, limits.omega, time)
+        out = stepped_out(plan, t, ahead, sole, limits.gait, limits.omega, time)
         if out is None:
-            out = waiting(pattern.plan, t, dcm)
-        if out is None and not self._runs_out(t, pattern.plan, ahead - pattern.planned_dcm(t)):
-            out = hastened(pattern.plan, t)
-        return None if out is pattern.plan else out
+            out = waiting(plan, t, dcm)
+        step = plan.next_lift(t)
+        if out is None and step is not None:
+            drift = outward(plan, t, step.foot, ahead) - outward(plan, t, step.foot, planned)
+            if drift <= OUTWARD * limits.tolerance:
+                out = hastened(plan, t)
+        return None if out is plan else out

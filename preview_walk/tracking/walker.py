@@ -82,8 +82,7 @@ class Walker:
         """
         body = self.body
         body.update(q, v)
-        contact = {foot: self.feet[foot].contact for foot in FEET}
-        self.recovery.answer(t, self.pattern, body.dynamics, contact, self._zmp)
+        self.recovery.answer(t, self.pattern, body.dynamics, self.feet, self._zmp)
         early = self.feet.follow(t, self.plan, normal_force)
         if early is not None:
             pose = sole_pose(body.dynamics.feet[early])
