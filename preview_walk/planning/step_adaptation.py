@@ -56,10 +56,13 @@ TOLERANCE = 0.03
 """Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
 
 LATEST = 0.08
-"""A landing nearer than this (s) is not changed any more ..."""
+"""A landing nearer than this (s) is not changed any more, but for two: at once where it is ..."""
+
+SOON = 0.012
+"""A foot that is nearly down can be down within this time (s): the ZMP reaches its sole sooner."""
 
 RELIFT = 0.18
-"""... unless the foot rises again: then it takes this long (s) at least."""
+"""... or elsewhere, after the foot has risen again: that takes this long (s) at least."""
 
 
 @dataclass(frozen=True)
@@ -119,15 +122,12 @@ def adapt_step(
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes = stance[:2, :2]
     local = error @ axes
-    # The plan's mean ZMP over the rest of the step; delta moves it as far as the sole allows.
-    mean = ((planned[1] - tau * planned[0]) / (1.0 - tau) - stance[:2, 3]) @ axes
-    high = np.array(limits.zmp)
-    low = -high
+    half = np.array(limits.zmp)
     grown = local * tau
-    rest = grown - np.clip(grown / (tau - 1.0), low, high) * (tau - 1.0)
+    rest = grown - np.clip(grown / (tau - 1.0), -half, half) * (tau - 1.0)
     if np.abs(rest).max() <= limits.tolerance:
         return None
-    return _best(plan, step, t, dcm, planned, swing, nominal, limits, half_pause, mean, low, high)
+    return _best(plan, step, t, dcm, planned, swing, nominal, limits, half_pause)
 
 
 def _best(
@@ -140,9 +140,6 @@ def _best(
     nominal: Footstep,
     limits: StepLimits,
     half_pause: float,
-    mean: Array,
-    low: Array,
-    high: Array,
 ) -> FootstepPlan | None:
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes, origin = stance[:2, :2], stance[:2, 3]
@@ -156,13 +153,13 @@ def _best(
 
     height = max(0.0, float(swing[0][2] - step.pose[2, 3]))
     drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
+    if step.land - t < SOON:
+        return None
     late = step.land - t < LATEST
     first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
-    land = np.append(
-        np.linspace(first, last, TIMES),
-        (max(nominal.land, first), step.land if late else max(step.land, first)),
-    )
+    keep = min(t + max(SOON, drop), step.land) if late else max(step.land, first)
+    land = np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), keep))
     tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
     # Footholds: reach of the leg, and what the swing foot can still get to.
     left = (land - t)[:, None]
@@ -174,12 +171,11 @@ def _best(
     reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     place_low = np.clip(now - behind, reach_low, reach_high)
     place_high = np.clip(now + ahead, reach_low, reach_high)
-    if late:  # the foot may also come down where and when it was about to
-        place_low[-1] = place_high[-1] = current
 
-    # foothold + offset' = start tau - (mean + delta) (tau - 1): the DCM at landing.
-    free = start * tau - mean * (tau - 1.0)
+    # foothold + offset' = start tau - delta (tau - 1): the DCM at landing.
+    free = start * tau
     lever = tau - 1.0
+    half = np.array(limits.zmp)
     delta = np.zeros_like(free)
     place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
     carry = np.zeros_like(free)
@@ -192,7 +188,7 @@ def _best(
             place_high,
         )
         delta = np.clip(
-            w * lever * (free - offset - carry - place) / (w * lever * lever + z), low, high
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z), -half, half
         )
         carry = np.clip(
             w * (free - lever * delta - offset - place) / (w + c), carry_low, carry_high
@@ -202,13 +198,14 @@ def _best(
     cost += k * ((place - current) ** 2).sum(axis=1)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
-    if late and best == len(land) - 1:
-        return None
     x, y = place[best].tolist()
     heading = heading_of(stance)
     turn = heading_of(step.pose)[2] - heading[2]
     sole = gait.clamp(step.foot, heading, compose(heading, x, y, turn))
     pose = pose_at(*sole, float(step.pose[2, 3]))
+    if late and best == len(land) - 1:  # down at once; the next step keeps its time
+        later = plan.steps[plan.steps.index(step) + 1 :]
+        return plan.retarget(t, pose, float(land[best])).replace_after(t, later)
     return landed_at(plan, t, pose, float(land[best]))
 
 

@@ -32,6 +32,13 @@ PROBE_SPEED = 0.15
 PROBE_TIME = 0.15
 """... until this long (s) after it was due; then it counts as standing."""
 
+SINK_SPEED = 0.05
+"""A foot that should stand and carries nothing goes down at this speed (m/s): while all the load is
+on the edge of the other one it would come off the ground, and hit it when load returns ..."""
+
+HANG = 0.05
+"""... unless it is to lift within this time (s)."""
+
 RAMP_TIME = 0.02
 """Time (s) over which a new contact comes to its full load, and a lifting one is freed of it."""
 
@@ -77,6 +84,7 @@ class Feet:
         """
         step = plan.swing_at(t)
         early = None
+        self._body.sink.clear()
         for foot, state in self.states.items():
             load = normal_force[foot] / self._weight
             if step is not None and step.foot == foot:
@@ -84,6 +92,8 @@ class Feet:
                     early = foot
             else:
                 self._stand(t, plan, foot, state, load > TOUCH_FORCE)
+                if state.contact and load < TOUCH_FORCE and not _lifts(plan, t, foot):
+                    self._body.sink[foot] = SINK_SPEED
         return early
 
     def _swing(self, t: float, step: Footstep, state: FootState, touching: bool) -> bool:
@@ -138,6 +148,12 @@ class Feet:
                 share = min(share, (lifting.lift - t) / RAMP_TIME + 0.01)
             limits[foot] = 2.0 * self._weight * share
         return limits
+
+
+def _lifts(plan: FootstepPlan, t: float, foot: Foot) -> bool:
+    """Return whether a foot lifts within `HANG` from t (s)."""
+    step = plan.next_lift(t)
+    return step is not None and step.foot == foot and step.lift - t < HANG
 
 
 def sole_pose(terms: FrameTerms) -> Array:

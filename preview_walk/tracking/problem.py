@@ -116,11 +116,16 @@ class TickProblem:
         self.bias: Array = np.zeros(nv)
 
     def fill(
-        self, dynamics: Dynamics, normal_limit: Mapping[Foot, float], shares: Sequence[float]
+        self,
+        dynamics: Dynamics,
+        normal_limit: Mapping[Foot, float],
+        shares: Sequence[float],
+        sink: Mapping[Foot, float],
     ) -> None:
         """Write the QP of the current state.
 
-        `normal_limit` (N): the largest normal forces; `shares`: of the load on each contact.
+        `normal_limit` (N): the largest normal forces; `shares`: of the load on each contact;
+        `sink` (m/s): how fast a contact goes down, for those that have left the ground.
         """
         self.mass, self.bias = dynamics.mass, dynamics.bias
         for task, jacobian, target, slack in self._task_rows:
@@ -131,6 +136,8 @@ class TickProblem:
             self.contact_jacobian[span] = terms.jacobian
             wanted = self._contact_target[span]
             np.multiply(terms.velocity, -BRAKE, out=wanted)
+            if foot in sink:
+                wanted[:3] -= BRAKE * sink[foot] * terms.rotation[2]
             wanted -= terms.drift
             self._normal_high[k] = max(0.0, normal_limit[foot])
             np.divide(self._wrench_weight[span], shares[k], out=self.wrench_weight[span])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
+from math import exp
 
 import numpy as np
 
@@ -19,11 +20,11 @@ from preview_walk.planning.recovery_plan import (
     waiting,
 )
 from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
-from preview_walk.planning.support import Sole
+from preview_walk.planning.support import Sole, support_margin, support_polygon
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.feet import Feet
-from preview_walk.types import Array, Foot
+from preview_walk.types import FEET, Array, Foot
 
 SWING_PULL = 25.0
 """Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
@@ -34,9 +35,13 @@ EARLY = 0.05
 CALM = 1.0
 """So long (s) after the last change of the plan a touchdown ahead of time is part of a recovery."""
 
-AHEAD, AHEAD_STANDING = 0.025, 0.05
-"""Times (s) for which a push is taken to last, with one foot in the air and with both down, where
-a step comes later by the time it takes to unload the foot."""
+AHEAD = 0.05
+"""Time (s) for which a push is taken to last in the double support of a walk: a step comes later
+by the time it takes to unload the foot. Who stands goes on standing while the DCM is above the
+soles: the swing of a leg would push it further."""
+
+SMOOTH = 0.006
+"""Time constant (s) of the push's estimate, which every touch of a foot disturbs."""
 
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
@@ -50,7 +55,10 @@ the other one still to hurry: lifted, it could not catch it."""
 
 
 class Recovery:
-    """Decides at every planning tick whether the plan stays; `answer` changes it where not."""
+    """Decides at every planning tick whether the plan stays; `answer` changes it where not.
+
+    `push` (2,) m/s: how fast the DCM runs besides what the ZMP drives, from the last two ticks.
+    """
 
     def __init__(self, robot: Robot, omega: float) -> None:
         half, leg = robot.soles["left"], robot.leg_length
@@ -77,7 +85,7 @@ class Recovery:
         self._nominal: Footstep | None = None
         self._changed = -np.inf
         self._dcm: tuple[float, Array] | None = None
-        self._push: Array = np.zeros(2)
+        self.push: Array = np.zeros(2)
 
     def answer(
         self,
@@ -98,7 +106,8 @@ class Recovery:
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
         if self._dcm is not None:
             drift = pattern.omega * (0.5 * (dcm + self._dcm[1]) - zmp)
-            self._push = (dcm - self._dcm[1]) / (t - self._dcm[0]) - drift
+            now = (dcm - self._dcm[1]) / (t - self._dcm[0]) - drift
+            self.push = self.push + (now - self.push) / (1.0 + SMOOTH / PLANNING_DT)
         self._dcm = t, dcm
         plan = self._revised(t, pattern, dcm, dynamics, feet)
         if plan is not None:
@@ -145,7 +154,7 @@ class Recovery:
         return adapt_step(
             pattern.plan,
             t,
-            dcm + AHEAD * self._push,
+            dcm,
             (pattern.planned_dcm(t), pattern.planned_dcm(step.land + 0.5 * pause)),
             (sole.position, sole.rotation @ sole.velocity[:3]),
             self._nominal,
@@ -156,15 +165,28 @@ class Recovery:
         plan, limits, planned = pattern.plan, self.limits, pattern.planned_dcm(t)
         if np.abs(dcm - planned).max() <= limits.tolerance:
             return None
-        # A push lasts: the step is for where the DCM will be, not for where it is.
-        ahead = dcm + AHEAD_STANDING * self._push
+        step, ahead = plan.next_lift(t), dcm
         sole, time = self._stand_sole, self._swing_time
+        if step is not None:
+            # A push lasts: the step is for where the DCM will be, not for where it is.
+            ahead = dcm + AHEAD * self.push
+        if step is not None and self._held(t, plan, ahead, pattern.planned_dcm(step.lift), step):
+            return None
         out = stepped_out(plan, t, ahead, sole, limits.gait, limits.omega, time)
         if out is None:
-            out = waiting(plan, t, dcm)
-        step = plan.next_lift(t)
+            out = waiting(plan, t, ahead)
         if out is None and step is not None:
             drift = outward(plan, t, step.foot, ahead) - outward(plan, t, step.foot, planned)
             if drift <= OUTWARD * limits.tolerance:
                 out = hastened(plan, t)
         return None if out is plan else out
+
+    def _held(self, t: float, plan: FootstepPlan, dcm: Array, goal: Array, step: Footstep) -> bool:
+        """Return whether a ZMP above the soles brings the DCM (2,) to `goal` (2,) by the lift."""
+        growth = exp(self.limits.omega * (step.lift - t))
+        if growth < 1.0 + 1e-6:
+            return False
+        zmp = (dcm * growth - goal) / (growth - 1.0)
+        polygon = support_polygon([plan.sole(foot, t) for foot in FEET], self._stand_sole)
+        room = self.limits.tolerance / (growth - 1.0)
+        return float(support_margin(polygon, zmp)) > -room

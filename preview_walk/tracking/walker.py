@@ -22,7 +22,7 @@ from preview_walk.types import FEET, Array, Foot
 SWING_HEIGHT = 0.06
 """Height of the swing foot's apex over the leg's length."""
 
-LEAN = 0.03
+LEAN = 0.1
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
 give, trunk and arms do by their angular momentum."""
 
@@ -95,7 +95,8 @@ class Walker:
         """Set the CoM task: the reference's acceleration and feedback of the DCM and CoM.
 
         The error e obeys e'' = -(omega + k) e' - omega k e: poles at -omega and at the DCM gain
-        -k (Sugihara 2009; Englsberger et al. 2015 eq. 29).
+        -k (Sugihara 2009; Englsberger et al. 2015 eq. 29). What pushes the DCM is opposed as it is
+        observed, before an error has grown.
         """
         reference = self.reference = self.pattern.at(t)
         dynamics, omega, k = self.body.dynamics, self.pattern.omega, self.gains.dcm
@@ -105,7 +106,7 @@ class Walker:
         # The feedback's ZMP: what it asks for beyond the soles' reach they cannot give.
         cart = reference.com[:2] - reference.acceleration[:2] / omega**2
         away = (com + velocity / omega) - (reference.com + reference.velocity / omega)[:2]
-        zmp = cart + (1.0 + k / omega) * away
+        zmp = cart + (1.0 + k / omega) * away + self.recovery.push / omega
         shift = reference.zmp - cart
         soles = [sole_pose(dynamics.feet[f]) for f in FEET if self.feet[f].contact]
         if soles:

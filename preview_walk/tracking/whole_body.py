@@ -48,6 +48,7 @@ class WholeBodyController:
     tasks: set their references, then call `update` and `torques`. A foot that is not in contact
     follows its foot task. `add_task` adds one's own.
 
+    - `sink`: how fast (m/s) a foot in contact goes down, for one that has come off the ground.
     - `solution`: the last tick's accelerations and wrenches; `times`: what the tick cost.
     - `status`: 0 solved, 1 the last solution stood in, 2 the damped posture did (see `safety`);
       `failures` counts ticks not solved, `failure` is the evidence of the last of them.
@@ -73,6 +74,7 @@ class WholeBodyController:
         if gains.momentum_weight > 0.0:
             self.tasks.append(self.momentum)
         self.posture = _posture_task(robot, gains)
+        self.sink: dict[Foot, float] = {}
         self.times = TickTimes()
         self.solution: Solution | None = None
         self.failure: QPFailure | None = None
@@ -159,7 +161,7 @@ class WholeBodyController:
                 self.friction,
             )
             self._problems[contacts] = problem
-        problem.fill(self.dynamics, normal_limit, self._shares(contacts))
+        problem.fill(self.dynamics, normal_limit, self._shares(contacts), self.sink)
         return problem
 
     def _shares(self, contacts: tuple[Foot, ...]) -> tuple[float, ...]:

@@ -11,7 +11,14 @@ from preview_walk.planning.footstep_planner import FootstepPlanner
 from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import pose_at, yaw_of
-from preview_walk.planning.step_adaptation import DROP, LATEST, RELIFT, StepLimits, adapt_step
+from preview_walk.planning.step_adaptation import (
+    DROP,
+    LATEST,
+    RELIFT,
+    SOON,
+    StepLimits,
+    adapt_step,
+)
 from preview_walk.planning.support import Sole
 from preview_walk.types import Array, other
 
@@ -65,22 +72,33 @@ def test_a_small_error_is_left_to_the_sole(error: tuple[float, float]):
 def test_a_standing_or_a_landing_foot_is_left_alone():
     plan, step, _ = walk()
     far, here = np.array((1.0, 1.0)), (step.pos, np.zeros(3))
-    for t in (step.land + 0.05, step.land - 0.5 * LATEST):
+    for t in (step.land + 0.05, step.land - 0.5 * SOON):
         dcm = planned(plan, step, t)
         assert adapt_step(plan, t, dcm[0] + far, dcm, here, step, LIMITS) is None
 
 
-def test_a_foot_about_to_land_rises_again_for_a_push_to_its_side_only():
+def test_a_foot_about_to_land_ahead_rises_again_for_a_push_back():
     plan, step, _ = walk()
     t = step.land - 0.5 * LATEST
     dcm, here = planned(plan, step, t), (step.pos, np.zeros(3))
-    outward = 1.0 if step.foot == "left" else -1.0
-    assert adapt_step(plan, t, dcm[0] + (0.0, 0.02 * outward), dcm, here, step, LIMITS) is None
-    new = adapt_step(plan, t, dcm[0] + (0.0, 0.15 * outward), dcm, here, step, LIMITS)
+    assert adapt_step(plan, t, dcm[0] + (-0.01, 0.0), dcm, here, step, LIMITS) is None
+    new = adapt_step(plan, t, dcm[0] + (-0.2, 0.0), dcm, here, step, LIMITS)
     assert new is not None
     changed = new.steps[3]
     assert changed.land >= t + RELIFT - 1e-9
-    assert outward * (changed.pos - step.pos)[1] > 0.05
+    assert (changed.pos - step.pos)[0] < -0.1
+
+
+def test_a_foot_about_to_land_is_put_down_at_once_where_it_is_for_other_pushes():
+    plan, step, _ = walk()
+    t = step.land - 0.5 * LATEST
+    dcm, here = planned(plan, step, t), (step.pos, np.zeros(3))
+    new = adapt_step(plan, t, dcm[0] + (0.12, 0.0), dcm, here, step, LIMITS)
+    assert new is not None
+    changed = new.steps[3]
+    assert changed.land == pytest.approx(t + SOON)
+    assert np.linalg.norm(changed.pos - step.pos) < 1e-3
+    assert new.steps[4:] == plan.steps[4:]
 
 
 @pytest.mark.parametrize("height", [0.0, 0.03, 0.06])

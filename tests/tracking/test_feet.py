@@ -7,7 +7,7 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.tracking.feet import GRACE, PROBE_SPEED, PROBE_TIME, Feet
+from preview_walk.tracking.feet import GRACE, HANG, PROBE_SPEED, PROBE_TIME, SINK_SPEED, Feet
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Foot
@@ -82,3 +82,15 @@ def test_a_ground_never_felt_is_believed_in_the_end(feet: Feet, plan: FootstepPl
     lift(feet, plan)
     feet.follow(plan.steps[0].land + PROBE_TIME + 1e-3, plan, RIGHT_ONLY)
     assert feet["left"].contact
+
+
+def test_a_foot_that_should_stand_and_carries_nothing_sinks_unless_it_is_to_lift(
+    feet: Feet, plan: FootstepPlan
+) -> None:
+    sink, lift = feet._body.sink, plan.steps[0].lift
+    feet.follow(lift - 2.0 * HANG, plan, BOTH)
+    assert sink == {}
+    feet.follow(lift - 1.1 * HANG, plan, RIGHT_ONLY)
+    assert sink == {"left": SINK_SPEED}
+    feet.follow(lift - 0.9 * HANG, plan, RIGHT_ONLY)
+    assert sink == {}

@@ -126,6 +126,15 @@ def test_limits_are_this_law(talos: Robot) -> None:
     np.testing.assert_array_equal(p.limits[:, : p.n], [-talos.effort, talos.effort])
 
 
+def test_a_contact_that_sinks_comes_to_its_speed(talos: Robot) -> None:
+    body = standing_controller(talos)
+    body.sink["left"] = 0.05
+    body.torques(full_load(talos, "right") | {"left": 0.0})
+    assert body.solution is not None
+    down = body.dynamics.feet["left"].jacobian @ body.solution.acceleration
+    np.testing.assert_allclose(down, [0.0, 0.0, -0.05 * BRAKE, 0.0, 0.0, 0.0], atol=1e-2)
+
+
 def test_the_load_is_shared_as_the_wanted_zmp_lies(talos: Robot) -> None:
     body = standing_controller(talos)
     body.torques(full_load(talos))

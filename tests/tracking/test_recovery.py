@@ -69,6 +69,27 @@ def test_steps_that_no_plan_may_have_are_no_answer(talos: Robot, monkeypatch: py
     assert len(walk.record().plans) == 1
 
 
+def test_a_push_is_opposed_as_it_comes(talos: Robot):
+    """At once the ZMP goes where the push's moment about it is the weight's, or beyond."""
+    walk = pushed(talos, None, 0.0, 10.0)
+    record = walk.record()
+    before, after = np.searchsorted(record.time, (0.29, 0.33))
+    wanted = 50.0 / (talos.mass * walk.walker.pattern.omega**2)
+    shift = record.zmp[after, 0] - record.zmp[before, 0]
+    assert 0.95 * wanted < shift < talos.soles["left"].half_length
+    assert np.abs(record.com - record.com[0])[:, :2].max() < 0.01
+
+
+@pytest.mark.parametrize("impulse", [12.0, 17.1, 20.0])
+def test_a_narrow_soled_robot_pushed_sideways_stands_where_it_is(impulse: float):
+    """With the load all on one sole's edge the other sole stays at the ground."""
+    walk = pushed(pw.load_robot("g1"), None, 90.0, impulse)
+    assert not walk.fallen
+    assert walk.plan.steps == ()
+    record = walk.record()
+    assert record.right_foot[:, 2, 3].max() < 0.002
+
+
 def test_ankles_answer_a_small_push_on_a_stand(talos: Robot):
     walk = pushed(talos, None, 0.0, 15.0)
     assert not walk.fallen
