@@ -10,8 +10,9 @@ the DCM grows by tau = exp(omega T) to
 While the sole leaves room for the delta that brings e(T) to zero the plan is kept. Otherwise the
 landing moves, by place and by time (Khadiv et al. 2020; Griffin et al. 2017): among landing times
 within the limits, the one is taken whose foothold leaves the next step the DCM nearest to the
-plan's offset from its foot, then nearest to the plan. Each time is a problem of two variables an
-axis (foothold and delta) in a box, solved exactly; all times at once.
+plan's offset from its foot, then nearest to the plan; delta then counts from the stance sole's
+centre. Each time is a small convex problem an axis (foothold, delta, and the offset that the next
+step takes up) in a box; all times are solved at once.
 """
 
 from __future__ import annotations

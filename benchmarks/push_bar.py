@@ -1,0 +1,71 @@
+"""Whether a simulated robot survives what a controller that keeps its footholds never could.
+
+    python benchmarks/push_bar.py --robot talos
+
+Every cell of `push_recovery.py` (8 directions, 5 phases of single support and standing, left and
+right stance) is pushed with three shares of its bar, so that no lucky island counts. The bar is the
+pendulum's bound with the footholds kept, (a); straight outward, and sideways on a stand, 0.75 of
+its bound with the footholds free, (b); in between, on a stand, the smaller of the two. The command
+prints the cells that fell, and fails where there are any.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from concurrent.futures import ProcessPoolExecutor
+
+from push_bound_table import GAITS
+from push_recovery import ANGLES, SHARES, Cell, bounds, cells, survives
+from tqdm import tqdm
+
+OF_BAR = (0.6, 0.8, 1.0)
+"""Shares of the bar that are tried."""
+
+OUTWARD = 0.75
+"""Share of (b) that is asked for where the legs cannot cross."""
+
+
+def bar(cell: Cell) -> float:
+    """Return the impulse (N·s) that a cell should survive."""
+    robot, _, share, angle = cell
+    kept, free, _ = bounds(robot, share, angle)
+    if angle == 90 or (share is None and angle == 270):
+        return OUTWARD * free
+    return min(kept, OUTWARD * free) if share is None and angle % 180 else kept
+
+
+def tried(push: tuple[Cell, float]) -> bool:
+    """Return whether a cell survives an impulse (N·s); for the pool."""
+    return survives(*push)
+
+
+def main() -> int:
+    """Push every cell; return how many fell at one of the shares at least."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--robot", default="talos", choices=[name.lower() for name in GAITS])
+    parser.add_argument("--jobs", type=int, default=None, help="processes (default: all cores)")
+    given = parser.parse_args()
+    grid = list(cells(given.robot, list(SHARES), list(ANGLES)))
+    pushes = [(cell, share * bar(cell)) for cell in grid for share in OF_BAR]
+    with ProcessPoolExecutor(given.jobs) as pool:
+        stood = list(tqdm(pool.map(tried, pushes), total=len(pushes), unit="push"))
+    fell = 0
+    for k, cell in enumerate(grid):
+        outcome = stood[k * len(OF_BAR) : (k + 1) * len(OF_BAR)]
+        if all(outcome):
+            continue
+        fell += 1
+        _, stance, share, angle = cell
+        phase = "standing" if share is None else f"{100 * share:.0f} %, {stance} stance"
+        words = [
+            f"{f:g}: {'stood' if ok else 'fell'}" for f, ok in zip(OF_BAR, outcome, strict=True)
+        ]
+        print(f"{phase}, {angle} degrees, of the bar of {bar(cell):.1f} N·s  {', '.join(words)}")
+    print(f"{given.robot}: {len(grid) - fell} of {len(grid)} cells past the bar, ", end="")
+    print(f"{sum(stood)} of {len(stood)} pushes survived")
+    return fell
+
+
+if __name__ == "__main__":
+    sys.exit(1 if main() else 0)
