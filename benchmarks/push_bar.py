@@ -14,10 +14,13 @@ from __future__ import annotations
 import argparse
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from math import radians
 
 from push_bound_table import GAITS
-from push_recovery import ANGLES, SHARES, Cell, bounds, cells, survives
+from push_recovery import ANGLES, SHARES, Cell, cells, survives
 from tqdm import tqdm
+
+from preview_walk.planning.push_bound import largest_impulse
 
 OF_BAR = (0.6, 0.8, 1.0)
 """Shares of the bar that are tried."""
@@ -29,7 +32,9 @@ OUTWARD = 0.75
 def bar(cell: Cell) -> float:
     """Return the impulse (N·s) that a cell should survive."""
     robot, _, share, angle = cell
-    kept, free, _ = bounds(robot, share, angle)
+    gait, towards = GAITS[robot.upper()], radians(angle)
+    kept = largest_impulse(gait, share, towards, "cop")
+    free = largest_impulse(gait, share, towards, "steps")
     if angle == 90 or (share is None and angle == 270):
         return OUTWARD * free
     return min(kept, OUTWARD * free) if share is None and angle % 180 else kept
@@ -47,11 +52,12 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=None, help="processes (default: all cores)")
     given = parser.parse_args()
     grid = list(cells(given.robot, list(SHARES), list(ANGLES)))
-    pushes = [(cell, share * bar(cell)) for cell in grid for share in OF_BAR]
+    bars = [bar(cell) for cell in grid]
+    pushes = [(cell, of * size) for cell, size in zip(grid, bars, strict=True) for of in OF_BAR]
     with ProcessPoolExecutor(given.jobs) as pool:
         stood = list(tqdm(pool.map(tried, pushes), total=len(pushes), unit="push"))
     fell = 0
-    for k, cell in enumerate(grid):
+    for k, (cell, size) in enumerate(zip(grid, bars, strict=True)):
         outcome = stood[k * len(OF_BAR) : (k + 1) * len(OF_BAR)]
         if all(outcome):
             continue
@@ -61,7 +67,7 @@ def main() -> int:
         words = [
             f"{f:g}: {'stood' if ok else 'fell'}" for f, ok in zip(OF_BAR, outcome, strict=True)
         ]
-        print(f"{phase}, {angle} degrees, of the bar of {bar(cell):.1f} N·s  {', '.join(words)}")
+        print(f"{phase}, {angle} degrees, of the bar of {size:.1f} N·s  {', '.join(words)}")
     print(f"{given.robot}: {len(grid) - fell} of {len(grid)} cells past the bar, ", end="")
     print(f"{sum(stood)} of {len(stood)} pushes survived")
     return fell
