@@ -59,11 +59,11 @@ TOLERANCE = 0.03
 LATEST = 0.08
 """A landing nearer than this (s) is not changed any more, but for two: at once where it is ..."""
 
-SOON = 0.012
-"""A foot that is nearly down can be down within this time (s): the ZMP reaches its sole sooner."""
-
 RELIFT = 0.18
 """... or elsewhere, after the foot has risen again: that takes this long (s) at least."""
+
+SOON = 0.012
+"""A foot that is nearly down can be down within this time (s): the ZMP reaches its sole sooner."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def adapt_step(
         limits: what a recovery step may be.
     """
     step = plan.swing_at(t)
-    if step is None:
+    if step is None or step.land - t < SOON:
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
     pause = following.lift - step.land if following is not None else plan.settle
@@ -141,7 +141,7 @@ def _best(
     nominal: Footstep,
     limits: StepLimits,
     half_pause: float,
-) -> FootstepPlan | None:
+) -> FootstepPlan:
     stance = plan.sole("right" if step.foot == "left" else "left", t)
     axes, origin = stance[:2, :2], stance[:2, 3]
     side = 1.0 if step.foot == "left" else -1.0
@@ -154,8 +154,6 @@ def _best(
 
     height = max(0.0, float(swing[0][2] - step.pose[2, 3]))
     drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
-    if step.land - t < SOON:
-        return None
     late = step.land - t < LATEST
     first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)

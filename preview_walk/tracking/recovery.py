@@ -57,7 +57,7 @@ the other one still to hurry: lifted, it could not catch it."""
 class Recovery:
     """Decides at every planning tick whether the plan stays; `answer` changes it where not.
 
-    `push` (2,) m/s: how fast the DCM runs besides what the ZMP drives, from the last two ticks.
+    `push` (2,) m/s: how fast the DCM runs besides what the ZMP drives, smoothed over `SMOOTH`.
     """
 
     def __init__(self, robot: Robot, omega: float) -> None:
