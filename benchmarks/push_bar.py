@@ -7,6 +7,9 @@ right stance) is pushed with three shares of its bar, so that no lucky island co
 pendulum's bound with the footholds kept, (a); straight outward, and sideways on a stand, 0.75 of
 its bound with the footholds free, (b); in between, on a stand, the smaller of the two. The command
 prints the cells that fell, and fails where there are any.
+
+The bound's force acts at the CoM, the push on the base, which is near it. `--body torso_2_link`
+pushes TALOS's chest instead, `--body torso_link` G1's, where it tips the trunk over too.
 """
 
 from __future__ import annotations
@@ -40,8 +43,8 @@ def bar(cell: Cell) -> float:
     return min(kept, OUTWARD * free) if share is None and angle % 180 else kept
 
 
-def tried(push: tuple[Cell, float]) -> bool:
-    """Return whether a cell survives an impulse (N·s); for the pool."""
+def tried(push: tuple[Cell, float, str | None]) -> bool:
+    """Return whether a cell survives an impulse (N·s) on a body; for the pool."""
     return survives(*push)
 
 
@@ -50,10 +53,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--robot", default="talos", choices=[name.lower() for name in GAITS])
     parser.add_argument("--jobs", type=int, default=None, help="processes (default: all cores)")
+    parser.add_argument("--body", help="body that is pushed (default: the base)")
     given = parser.parse_args()
     grid = list(cells(given.robot, list(SHARES), list(ANGLES)))
     bars = [bar(cell) for cell in grid]
-    pushes = [(cell, of * size) for cell, size in zip(grid, bars, strict=True) for of in OF_BAR]
+    pushes = [
+        (cell, of * size, given.body)
+        for cell, size in zip(grid, bars, strict=True)
+        for of in OF_BAR
+    ]
     with ProcessPoolExecutor(given.jobs) as pool:
         stood = list(tqdm(pool.map(tried, pushes), total=len(pushes), unit="push"))
     fell = 0

@@ -49,8 +49,8 @@ Cell = tuple[str, str, float | None, int]
 """Robot, stance foot, share of single support (None: standing), angle (degrees)."""
 
 
-def survives(cell: Cell, impulse: float) -> bool:
-    """Return whether the robot survives a push of this impulse (N·s)."""
+def survives(cell: Cell, impulse: float, body: str | None = None) -> bool:
+    """Return whether the robot survives a push of this impulse (N·s) on a body, else the base."""
     name, stance, share, angle = cell
     robot = pw.load_robot(name)
     gait = GAITS[name.upper()]
@@ -66,7 +66,7 @@ def survives(cell: Cell, impulse: float) -> bool:
         begin = step.lift + share * (step.land - step.lift)
     force, mirror = impulse / PUSH_TIME, 1.0 if foot == "left" else -1.0
     along = (force * cos(radians(angle)), mirror * force * sin(radians(angle)), 0.0)
-    walk = pw.Walk(robot, plan, pushes=[pw.Push(begin, PUSH_TIME, along)])
+    walk = pw.Walk(robot, plan, pushes=[pw.Push(begin, PUSH_TIME, along, body)])
     return not walk.run(until=begin + PUSH_TIME + AFTER).fallen
 
 

@@ -165,14 +165,14 @@ def _parser() -> _Parser:
         " (seconds from 0 on, seconds above 0, newtons)",
         lambda xs: xs[0] >= 0.0 and xs[1] > 0.0,
     )
-    line = "push the torso from T on with this force in the world frame; may be repeated"
+    line = "push the base (pelvis) from T on with this force in the world frame; may be repeated"
     repeat("--push", "T,DURATION,FX,FY,FZ", reader, line)
     reader = named_numbers(
         f"every=S,impulse=NS (seconds, {PUSH_TIME} or more; newton-seconds above 0)",
         ("every", "impulse"),
         lambda xs: xs["every"] >= PUSH_TIME and xs["impulse"] > 0.0,
     )
-    line = f"push the torso every S seconds in a random direction, for {PUSH_TIME} s"
+    line = f"push the base every S seconds in a random direction, for {PUSH_TIME} s"
     add("--pushes", "every=S,impulse=NS", reader, line)
     add("--seed", "N", whole(0, 2**32 - 1), "seed of whatever is random (default 0)", default=0)
     add("--physics-hz", "HZ", whole(1, 100_000), "steps of the physics per second")

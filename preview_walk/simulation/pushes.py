@@ -24,7 +24,9 @@ class Push:
         t: when it begins (s).
         duration: how long it lasts (s); the impulse is force times duration.
         force: (x, y, z) in newtons, world axes.
-        body: name of the body pushed; the trunk where it is None.
+        body: name of the body pushed; where it is None the base, a humanoid's pelvis: nearest to
+            the CoM, so that the push moves the robot and hardly tips it. On the chest the same
+            force is harder to stand up to: it has a lever about the CoM.
         point: where, in the body's own axes (m); the body's centre of mass where it is None.
     """
 
@@ -51,7 +53,7 @@ class Push:
 def random_pushes(
     every: float, impulse: float, duration: float, until: float, seed: int
 ) -> tuple[Push, ...]:
-    """Return pushes on the trunk at regular times, horizontal, in uniformly random directions.
+    """Return pushes on the base at regular times, horizontal, in uniformly random directions.
 
     Args:
         every: a push begins at each multiple of this time (s), not at 0.
@@ -84,18 +86,24 @@ def random_pushes(
     return tuple(pushes)
 
 
+def base_of(model: mujoco.MjModel) -> int:
+    """Return the id of the body that floats: all others hang on it."""
+    return int(model.jnt_bodyid[0])
+
+
 class Pusher:
     """Applies pushes to a running simulation."""
 
-    def __init__(self, model: mujoco.MjModel, pushes: Sequence[Push], trunk: str) -> None:
+    def __init__(self, model: mujoco.MjModel, pushes: Sequence[Push]) -> None:
         self._model = model
         self._pushes = []
         for push in pushes:
-            name = trunk if push.body is None else push.body
-            body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+            body = base_of(model)
+            if push.body is not None:
+                body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)
             if body < 0:
                 names = ", ".join(model.body(b).name for b in range(1, model.nbody))
-                raise InvalidInput(f"a push names the body '{name}'; the robot has {names}.")
+                raise InvalidInput(f"a push names the body '{push.body}'; the robot has {names}.")
             self._pushes.append((push, body, np.array(push.force, dtype=float)))
         self._idle = True
         self._none = np.zeros(3)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import mujoco.viewer
 
-from preview_walk.simulation.world import trunk_body
+from preview_walk.simulation.pushes import base_of
 
 if TYPE_CHECKING:
     from preview_walk.simulation.walk import Progress, Walk
@@ -23,7 +23,7 @@ def run_in_viewer(walk: Walk, progress: Progress | None = None) -> None:
     """
     world = walk.world
     with mujoco.viewer.launch_passive(world.model, world.data) as window:
-        body = world.model.body(trunk_body(walk.robot)).id
+        body = base_of(world.model)
         window.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
         window.cam.trackbodyid = body
         window.cam.distance = 3.2 * walk.robot.com_height

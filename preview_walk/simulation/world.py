@@ -46,8 +46,7 @@ class World:
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
-        trunk = trunk_body(robot)
-        self._pusher = Pusher(self.model, pushes, trunk)
+        self._pusher = Pusher(self.model, pushes)
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
         self._soles = {foot: self.data.site(sole_name(foot)).xpos for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]
@@ -72,12 +71,6 @@ class World:
         for _ in range(steps):
             self.push = self._pusher.apply(data.time, data)
             mujoco.mj_step(self.model, data)
-
-
-def trunk_body(robot: Robot) -> str:
-    """Return the name of the MuJoCo body that is the robot's trunk."""
-    joint = robot.mj.joint(robot.pin.names[robot.pin.frames[robot.torso].parentJoint])
-    return str(robot.mj.body(int(joint.bodyid[0])).name)
 
 
 def steps_per_tick(physics_hz: int, control_hz: int) -> int:

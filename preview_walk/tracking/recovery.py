@@ -19,7 +19,13 @@ from preview_walk.planning.recovery_plan import (
     stepped_out,
     waiting,
 )
-from preview_walk.planning.step_adaptation import TOLERANCE, StepLimits, adapt_step
+from preview_walk.planning.step_adaptation import (
+    LATEST,
+    RELIFT,
+    TOLERANCE,
+    StepLimits,
+    adapt_step,
+)
 from preview_walk.planning.support import Sole, support_margin, support_polygon
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
@@ -84,6 +90,7 @@ class Recovery:
         self._due = -np.inf
         self._nominal: Footstep | None = None
         self._changed = -np.inf
+        self._risen = -np.inf
         self._dcm: tuple[float, Array] | None = None
         self.push: Array = np.zeros(2)
 
@@ -146,20 +153,27 @@ class Recovery:
         self, t: float, pattern: WalkingPattern, dcm: Array, step: Footstep, dynamics: Dynamics
     ) -> FootstepPlan | None:
         if self._nominal is None or self._nominal.lift != step.lift:
-            self._nominal = step
+            self._nominal, self._risen = step, -np.inf
         following = pattern.plan.next_lift(step.land)
         settle = pattern.plan.settle
         pause = settle if following is None else min(settle, following.lift - step.land)
         sole = dynamics.feet[step.foot]
-        return adapt_step(
+        shortest, longest = self.limits.swing_time
+        limits = replace(self.limits, swing_time=(max(shortest, self._risen - step.lift), longest))
+        plan = adapt_step(
             pattern.plan,
             t,
             dcm,
             (pattern.planned_dcm(t), pattern.planned_dcm(step.land + 0.5 * pause)),
             (sole.position, sole.rotation @ sole.velocity[:3]),
             self._nominal,
-            self.limits,
+            limits,
         )
+        if plan is not None and step.land - t < LATEST:
+            land = next(s.land for s in plan.steps if s.lift == step.lift)
+            if land - t > RELIFT - 1e-6:  # it rises again: no sooner than that is it down
+                self._risen = land
+        return plan
 
     def _standing(self, t: float, pattern: WalkingPattern, dcm: Array) -> FootstepPlan | None:
         plan, limits, planned = pattern.plan, self.limits, pattern.planned_dcm(t)

@@ -71,6 +71,14 @@ def test_a_push_beside_the_centre_turns_the_robot(talos: Robot) -> None:
     assert angular == pytest.approx(np.cross(lever, force) * duration, rel=2e-2, abs=1e-3)
 
 
+def test_without_a_body_the_base_is_pushed(talos: Robot) -> None:
+    pushed, expected = (
+        momenta(talos, [Push(0.0, 0.05, (50.0, -20.0, 0.0), body=body)], 0.1)
+        for body in (None, "base_link")
+    )
+    assert np.array(pushed).tolist() == np.array(expected).tolist()
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

@@ -10,7 +10,7 @@ import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.world import World, steps_per_tick, trunk_body
+from preview_walk.simulation.world import World, steps_per_tick
 from preview_walk.types import FEET, Array
 
 HZ = 1000
@@ -108,10 +108,6 @@ def test_two_worlds_of_one_robot_share_nothing(talos: Robot) -> None:
     other.sense()
     assert (other.q == before).all()
     assert (one.q != before).any()
-
-
-def test_the_trunk_is_where_the_torso_is(talos: Robot) -> None:
-    assert trunk_body(talos) == "torso_2_link"
 
 
 @pytest.mark.parametrize(("physics", "control", "steps"), [(1000, 500, 2), (500, 500, 1)])
