@@ -162,7 +162,9 @@ def _best_foot(
         rest = end - (np.array(landing[:2]) - stance[:2, 3]) @ axes
         side = 1.0 if foot == "left" else -1.0
         stretch, steps = end - (0.0, side * gait.step_width), 1.0
-        if side * rest[1] < -half[1]:
+        if side * end[1] >= -half[1]:
+            rest[1] = side * max(0.0, side * float(rest[1]))  # between the feet both hold it
+        else:
             rest = _grown(rest, half, growth)
             stretch, steps = rest + np.array((0.0, side * gait.step_width)), 2.0
             rest[1] = max(0.0, -side * float(rest[1]) - gait.max_width)

@@ -47,12 +47,14 @@ RAMP_TIME = 0.02
 class FootState:
     """A foot: in contact `since` (s), or on `swing`; `pose` (4, 4) is where it should be.
 
-    `felt`: whether it has felt the ground since its last lift.
+    `felt`: whether it has felt the ground since its last lift; `bare`: when (s) it last stood
+    without any load.
     """
 
     contact: bool
     felt: bool
     since: float
+    bare: float
     swing: Swing | None
     pose: Array
 
@@ -68,7 +70,8 @@ class Feet:
         self._weight = weight
         self._swing_height = swing_height
         self.states = {
-            foot: FootState(True, True, -np.inf, None, plan.sole(foot, plan.start)) for foot in FEET
+            foot: FootState(True, True, -np.inf, -np.inf, None, plan.sole(foot, plan.start))
+            for foot in FEET
         }
 
     def __getitem__(self, foot: Foot) -> FootState:
@@ -92,8 +95,11 @@ class Feet:
                     early = foot
             else:
                 self._stand(t, plan, foot, state, load > TOUCH_FORCE)
-                if state.contact and load < TOUCH_FORCE and not _lifts(plan, t, foot):
-                    self._body.sink[foot] = SINK_SPEED
+                if state.contact and load < TOUCH_FORCE:
+                    if sum(normal_force.values()) > 0.5 * self._weight:
+                        state.bare = t
+                    if not _lifts(plan, t, foot):
+                        self._body.sink[foot] = SINK_SPEED
         return early
 
     def _swing(self, t: float, step: Footstep, state: FootState, touching: bool) -> bool:
@@ -143,7 +149,8 @@ class Feet:
         for foot, state in self.states.items():
             if not state.contact:
                 continue
-            share = min(1.0, (t - state.since) / RAMP_TIME + 0.02)
+            # What does not feel the ground cannot be leant on, whatever the plan says.
+            share = min(1.0, (t - max(state.since, state.bare)) / RAMP_TIME + 0.02)
             if lifting is not None and lifting.foot == foot:
                 share = min(share, (lifting.lift - t) / RAMP_TIME + 0.01)
             limits[foot] = 2.0 * self._weight * share

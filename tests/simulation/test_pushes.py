@@ -142,7 +142,7 @@ def test_a_strong_push_moves_the_next_foothold_its_way(
     talos: Robot, short_plan: FootstepPlan
 ) -> None:
     step = short_plan.steps[2]
-    push = Push(step.lift + 0.05, 0.2, (180.0, 0.0, 0.0))
+    push = Push(step.lift + 0.05, 0.2, (300.0, 0.0, 0.0))
     record = pw.simulate(talos, short_plan, pushes=[push])
     assert not record.settings["fell"]
     assert len(record.plans) > 1
