@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -130,3 +133,21 @@ def test_a_foot_that_just_landed_steps_again_where_the_other_would_have_to_cross
     move = again.pos - stance.pos
     assert side * move[1] > 0.0
     assert np.allclose(new.steps[2].pos - following.pos, move, atol=1e-9)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_dcm_that_ends_between_the_feet_is_caught_by_the_foot_that_is_next(side: float):
+    """Backwards, over the sole that just landed: both hold it, that foot need not step again."""
+    plan = walk()
+    step, following = next(
+        (a, b) for a, b in pairwise(plan.steps) if (a.foot == "left") == (side > 0.0)
+    )
+    t = step.land + 0.02
+    x, y = step.pos[:2].tolist()
+    dcm = np.array((x - 1.1 * SOLE.half_length, y + 0.9 * side * SOLE.half_width))
+    wide = replace(GAIT, max_width=0.7)  # the foot that landed could well catch it too
+    new = stepped_out(plan, t, dcm, SOLE, wide, OMEGA, SWING_TIME)
+    assert new is not None
+    ahead = [s for s in new.steps if s.lift > t]
+    assert ahead[0].foot == following.foot
+    assert ahead[0].lift < following.lift

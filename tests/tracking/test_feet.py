@@ -7,7 +7,15 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.tracking.feet import GRACE, HANG, PROBE_SPEED, PROBE_TIME, SINK_SPEED, Feet
+from preview_walk.tracking.feet import (
+    GRACE,
+    HANG,
+    PROBE_SPEED,
+    PROBE_TIME,
+    RAMP_TIME,
+    SINK_SPEED,
+    Feet,
+)
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Foot
@@ -94,3 +102,20 @@ def test_a_foot_that_should_stand_and_carries_nothing_sinks_unless_it_is_to_lift
     assert sink == {"left": SINK_SPEED}
     feet.follow(lift - 0.9 * HANG, plan, RIGHT_ONLY)
     assert sink == {}
+
+
+def test_what_does_not_feel_the_ground_cannot_be_leant_on(feet: Feet, plan: FootstepPlan) -> None:
+    """Its load ramps up from when it feels the ground; in the air or at the start all can be."""
+    nothing: dict[Foot, float] = {"left": 0.0, "right": 0.0}
+    feet.follow(0.1, plan, nothing)
+    assert feet.normal_limits(0.1, plan)["left"] == pytest.approx(2.0 * WEIGHT)
+    feet.follow(0.2, plan, RIGHT_ONLY)
+    limits = feet.normal_limits(0.2, plan)
+    assert limits["left"] < 0.05 * WEIGHT
+    assert limits["right"] == pytest.approx(2.0 * WEIGHT)
+    for t in (0.2 + 0.5 * RAMP_TIME, 0.2 + 1.1 * RAMP_TIME):
+        feet.follow(t, plan, BOTH)
+    assert feet.normal_limits(0.2 + 0.5 * RAMP_TIME, plan)["left"] == pytest.approx(
+        2.0 * WEIGHT * 0.52
+    )
+    assert feet.normal_limits(0.2 + 1.1 * RAMP_TIME, plan)["left"] == pytest.approx(2.0 * WEIGHT)

@@ -9,6 +9,7 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
+from preview_walk.planning.step_adaptation import LATEST, RELIFT
 from preview_walk.robots.robot import Robot
 
 
@@ -102,3 +103,27 @@ def test_a_stand_is_left_by_steps_and_stands_again(talos: Robot):
     assert len(walk.plan.steps) >= 2
     assert walk.plan.end < walk.time
     assert np.linalg.norm(walk.walker.body.dynamics.com_velocity) < 0.05
+
+
+def test_a_foot_that_rises_again_is_given_the_time_to():
+    """Hurried down again from there, it would hit the ground."""
+    g1 = pw.load_robot("g1")
+    planner = pw.FootstepPlanner(0.15, g1.step_width, 0.75, 0.2)
+    plan = planner.generate_footsteps(8)
+    step = [s for s in plan.steps if s.foot == "right"][2]
+    t = step.lift + 0.5 * (step.land - step.lift)
+    walk = pw.Walk(g1, plan, pushes=[pw.Push(t, 0.2, (-104.5, 0.0, 0.0))]).run(until=t + 2.0)
+    assert not walk.fallen
+    risen, lift, land, soonest = 0, 0.0, 0.0, 0.0
+    for plan in walk.record().plans:
+        now = [k for k in range(2, len(plan.foot)) if plan.lift[k] <= plan.time < plan.land[k]]
+        if not now:
+            continue
+        late = plan.lift[now[0]] == lift and land - plan.time < LATEST
+        if plan.lift[now[0]] != lift:
+            soonest = 0.0
+        elif late and plan.land[now[0]] > plan.time + RELIFT - 1e-6:
+            risen, soonest = risen + 1, plan.land[now[0]]
+        lift, land = plan.lift[now[0]], plan.land[now[0]]
+        assert late or land > soonest - 1e-6
+    assert risen > 0
