@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 import preview_walk as pw
 from preview_walk.simulation.plan_log import PlanRevision
 
-FORCE, DURATION = (150.0, 60.0, 0.0), 0.2  # N, forward and to the left; s
+FORCE, DURATION = (240.0, 100.0, 0.0), 0.2  # N, forward and to the left; s
 
 
 def draw_soles(axes: Axes, plan: PlanRevision, sole: pw.Sole, **style: Any) -> None:
@@ -50,7 +50,7 @@ def main() -> None:
     top.plot(*record.com[:, :2].T, color="tab:blue", label="CoM")
     top.plot(*record.dcm.T, color="tab:green", linewidth=0.9, label="DCM")
     at = record.com[np.searchsorted(record.time, push.t), :2]
-    top.quiver(*at, *FORCE[:2], color="tab:red", angles="xy", scale=1200.0, label="push")
+    top.quiver(*at, *FORCE[:2], color="tab:red", angles="xy", scale=2000.0, label="push")
     top.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="Soles before (grey) and after")
     top.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     for k, axes in enumerate((forward, sideways)):

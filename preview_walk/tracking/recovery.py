@@ -47,10 +47,10 @@ by the time it takes to unload the foot. Who stands goes on standing while the D
 soles: the swing of a leg would push it further."""
 
 SMOOTH = 0.006
-"""Time constant (s) of the push's estimate, which every touch of a foot disturbs."""
+"""Time constant (s) of the push's estimate."""
 
 TOUCHED = 0.05
-"""For so long (s) after a foot has touched down the estimate stays as it was."""
+"""For so long (s) after a foot has touched down the estimate stays as it was: an impact is none."""
 
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
