@@ -9,8 +9,12 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.py"))
-EXAMPLES = [path for path in EXAMPLES if path.stem != "video"]  # renders for a minute: test_video.py
+SLOW = ("video",)
+"""Without a graphics card it renders for minutes; `test_video.py` tests what it does."""
+
+EXAMPLES = sorted(
+    path for path in (Path(__file__).parents[1] / "examples").glob("*.py") if path.stem not in SLOW
+)
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
