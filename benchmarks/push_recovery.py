@@ -128,7 +128,7 @@ def report(robot: str, done: dict[Cell, dict[str, Any]], picture: Path) -> None:
     figure, axes = plt.subplots(
         1, len(shares), figsize=(4 * len(shares), 4.5), subplot_kw={"projection": "polar"}
     )
-    print(f"{robot}: largest impulse (N·s), left / right stance (bounds a / b / c), share of (b)")
+    print(f"{robot}: largest impulse (N·s), left / right stance (bounds a / b / c), their shares")
     ratios = []
     for share, axis in zip(shares, np.atleast_1d(axes), strict=True):
         angles = sorted({cell[3] for cell in mine if cell[2] == share})
@@ -138,11 +138,12 @@ def report(robot: str, done: dict[Cell, dict[str, Any]], picture: Path) -> None:
             rows = [mine.get((robot, stance, share, angle)) for stance in ("left", "right")]
             values = [row["impulse"] for row in rows if row is not None]
             islands = sum(row["islands"] for row in rows if row is not None)
-            ratios.append(min(values) / limit[angle][1])
+            ratios.append(min(values) / np.array(limit[angle]))
             text = " / ".join(f"{value:5.1f}" for value in values)
             bound = " / ".join(f"{value:5.1f}" for value in limit[angle])
+            share_of = " / ".join(f"{ratio:.2f}" for ratio in ratios[-1])
             note = f"  {islands} islands" if islands else ""
-            print(f"  {title:>8} {angle:4d}  {text:>13}  ({bound})  {ratios[-1]:.2f}{note}")
+            print(f"  {title:>8} {angle:4d}  {text:>13}  ({bound})  {share_of}{note}")
         ring = [radians(angle) for angle in [*angles, angles[0]]]
         for k, style in enumerate((":", "--")):
             axis.plot(ring, [limit[a][k] for a in [*angles, angles[0]]], "k" + style, lw=0.8)
@@ -154,7 +155,8 @@ def report(robot: str, done: dict[Cell, dict[str, Any]], picture: Path) -> None:
     figure.suptitle(f"{robot}: largest push (N·s); dotted: CoP alone, dashed: footholds free")
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
-    print(f"mean share of (b): {np.mean(ratios):.2f}; plot: {picture}")
+    means = " / ".join(f"{mean:.2f}" for mean in np.mean(ratios, axis=0))
+    print(f"mean shares, of the weaker stance, of (a) / (b) / (c): {means}; plot: {picture}")
 
 
 def main() -> None:
