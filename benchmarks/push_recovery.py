@@ -152,7 +152,10 @@ def report(robot: str, done: dict[Cell, dict[str, Any]], picture: Path) -> None:
             axis.plot(ring, [*row, row[0]], colour, marker="o", ms=3)
         axis.set_theta_zero_location("N")
         axis.set_title(title)
-    figure.suptitle(f"{robot}: largest push (N·s); dotted: CoP alone, dashed: footholds free")
+    figure.suptitle(
+        f"{robot}: largest push (N·s), left stance blue, right stance orange; "
+        "dotted: CoP alone, dashed: footholds free"
+    )
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
     means = " / ".join(f"{mean:.2f}" for mean in np.mean(ratios, axis=0))
