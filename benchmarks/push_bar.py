@@ -3,10 +3,11 @@
     python benchmarks/push_bar.py --robot talos
 
 Every cell of `push_recovery.py` (8 directions, 5 phases of single support and standing, left and
-right stance) is pushed with three shares of its bar, so that no lucky island counts. The bar is the
-pendulum's bound with the footholds kept, (a); straight outward, and sideways on a stand, 0.75 of
-its bound with the footholds free, (b); in between, on a stand, the smaller of the two. The command
-prints the cells that fell, and fails where there are any.
+right stance) is pushed with three shares of its bar; what falls between them only the finer sizes
+of `push_recovery.py` show. The bar is the pendulum's bound with the footholds kept, (a); straight
+outward, and sideways on a stand, 0.75 of its bound with the footholds free, (b); in between, on a
+stand, the smaller of the two. The command prints the cells that fell, and fails where there are
+any.
 
 The bound's force acts at the CoM, the push on the base, which is near it. `--body torso_2_link`
 pushes TALOS's chest instead, `--body torso_link` G1's, where it tips the trunk over too.
