@@ -4,7 +4,7 @@ Unknown are the generalised accelerations a (nv) and the wrenches f (6 per conta
 axes at its centre). With M a + h the inverse dynamics and J the contacts' Jacobian,
 
     minimise  sum of task weight |jacobian a - target|^2          tasks
-              + CONTACT_WEIGHT |J a + drift + BRAKE velocity|^2   soles stay where they are
+              + contact weights |J a + drift + BRAKE velocity|^2  soles stay where they are
               + posture weight |a - posture acceleration|^2       what is left free
               + wrench weight |f|^2 / share of the load           divides the load between the soles
               + LIMIT_WEIGHT |e|^2                                e: beyond the joints' limits
@@ -33,7 +33,11 @@ from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
 
 CONTACT_WEIGHT = 1e4
-"""Weight of a contact's acceleration: in walks soles err by 1e-4 m/s^2 (tasks weigh ~10)."""
+"""Weight of a contact's acceleration: in walks soles err by 1e-4 m/s^2 (tasks weigh ~10) ..."""
+
+TILT_WEIGHT = 1.0
+"""... but for its roll and pitch, which yield: where an ankle is at its limit the sole tips over
+its edge, and a QP that insisted on a flat one would throw the whole robot up to have it."""
 
 LIMIT_WEIGHT = 1e3
 """Weight of the acceleration (rad/s^2) by which a joint misses what its limits ask."""
@@ -46,6 +50,8 @@ BRAKE = 20.0
 
 LIMIT_RATE = 30.0
 """Joints approach their limits no faster than exponentially at this rate (1/s)."""
+
+_CONTACT_WEIGHTS = np.array([*3 * [CONTACT_WEIGHT], *2 * [TILT_WEIGHT], CONTACT_WEIGHT])
 
 WRENCH_UNIT = np.array([100.0, 100.0, 100.0, 10.0, 10.0, 10.0])
 """Unit of the wrenches in `build`, so that its variables are of order one."""
@@ -86,7 +92,7 @@ class TickProblem:
         self.rows: Array = np.zeros((self.m, nv))
         self.target: Array = np.zeros(self.m)
         self.slack: Array = np.zeros(self.m)
-        self.slack[ny : ny + self.nf] = 1.0 / CONTACT_WEIGHT
+        self.slack[ny : ny + self.nf] = np.tile(1.0 / _CONTACT_WEIGHTS, len(self.contacts))
         self._task_rows = []
         at = 0
         for task in tasks:

@@ -49,9 +49,6 @@ soles: the swing of a leg would push it further."""
 SMOOTH = 0.006
 """Time constant (s) of the push's estimate."""
 
-TOUCHED = 0.05
-"""For so long (s) after a foot has touched down the estimate stays as it was: an impact is none."""
-
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
 
@@ -114,8 +111,7 @@ class Recovery:
             return
         self._due = t + PLANNING_DT - 1e-9
         dcm = (dynamics.com + dynamics.com_velocity / pattern.omega)[:2]
-        touched = max(feet[foot].since for foot in FEET)
-        if self._dcm is not None and t - touched > TOUCHED:
+        if self._dcm is not None:
             drift = pattern.omega * (0.5 * (dcm + self._dcm[1]) - zmp)
             now = (dcm - self._dcm[1]) / (t - self._dcm[0]) - drift
             self.push = self.push + (now - self.push) / (1.0 + SMOOTH / PLANNING_DT)

@@ -70,17 +70,6 @@ def test_steps_that_no_plan_may_have_are_no_answer(talos: Robot, monkeypatch: py
     assert len(walk.record().plans) == 1
 
 
-def test_the_impacts_of_a_walk_are_taken_for_no_push(talos: Robot):
-    """Taken for a push, they would move the ZMP by more than the sole is long."""
-    plan = pw.FootstepPlanner(0.4, talos.step_width, 0.7, 0.22).generate_footsteps(6)
-    walk, largest = pw.Walk(talos, plan), 0.0
-    while walk.time < plan.end:
-        walk.run(until=walk.time + 0.006)
-        shift = walk.walker.recovery.push / walk.walker.pattern.omega
-        largest = max(largest, float(np.abs(shift).max()))
-    assert largest < talos.soles["left"].half_length
-
-
 def test_a_push_is_opposed_as_it_comes(talos: Robot):
     """At once the ZMP goes where the push's moment about it is the weight's, or beyond."""
     walk = pushed(talos, None, 0.0, 10.0)
