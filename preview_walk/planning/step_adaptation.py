@@ -26,7 +26,7 @@ from preview_walk.planning.footsteps import Footstep, FootstepPlan
 from preview_walk.planning.limits import GaitLimits
 from preview_walk.planning.pose import compose, heading_of, pose_at
 from preview_walk.planning.recovery_plan import SHORT_PAUSE, landed_at
-from preview_walk.types import Array
+from preview_walk.types import Array, Foot, other
 
 TIMES = 40
 """Landing times that are compared."""
@@ -116,91 +116,34 @@ def adapt_step(
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
     pause = following.lift - step.land if following is not None else plan.settle
-    half_pause = 0.5 * min(pause, SHORT_PAUSE)
-    omega = limits.omega
-    tau = exp(omega * (step.land + 0.5 * min(pause, plan.settle) - t))
-    error = dcm - planned[0]
-    stance = plan.sole("right" if step.foot == "left" else "left", t)
-    axes = stance[:2, :2]
-    local = error @ axes
+    stance = plan.sole(other(step.foot), t)
+    axes, origin = stance[:2, :2], stance[:2, 3]
     half = np.array(limits.zmp)
-    grown = local * tau
-    rest = grown - np.clip(grown / (tau - 1.0), -half, half) * (tau - 1.0)
+    growth = exp(limits.omega * (step.land + 0.5 * min(pause, plan.settle) - t))
+    grown = (dcm - planned[0]) @ axes * growth
+    rest = grown - np.clip(grown / (growth - 1.0), -half, half) * (growth - 1.0)
     if np.abs(rest).max() <= limits.tolerance:
         return None
-    return _best(plan, step, t, dcm, planned, swing, nominal, limits, half_pause)
 
-
-def _best(
-    plan: FootstepPlan,
-    step: Footstep,
-    t: float,
-    dcm: Array,
-    planned: tuple[Array, Array],
-    swing: tuple[Array, Array],
-    nominal: Footstep,
-    limits: StepLimits,
-    half_pause: float,
-) -> FootstepPlan:
-    stance = plan.sole("right" if step.foot == "left" else "left", t)
-    axes, origin = stance[:2, :2], stance[:2, 3]
-    side = 1.0 if step.foot == "left" else -1.0
-    gait = limits.gait
-    goal = (nominal.pose[:2, 3] - origin) @ axes
-    current = (step.pose[:2, 3] - origin) @ axes
-    offset = (planned[1] - step.pose[:2, 3]) @ axes
-    start = (dcm - origin) @ axes
-    now, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
-
-    height = max(0.0, float(swing[0][2] - step.pose[2, 3]))
-    drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
     late = step.land - t < LATEST
-    first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
-    last = max(step.lift + limits.swing_time[1], first + LATEST)
-    keep = min(t + max(SOON, drop), step.land) if late else max(step.land, first)
-    land = np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), keep))
-    tau = np.exp(limits.omega * (land + half_pause - t))[:, None]
-    # Footholds: reach of the leg, and what the swing foot can still get to.
-    left = (land - t)[:, None]
-    slow = limits.swing_speed * SPEED_SHARE[0] * left
-    weak = limits.swing_pull * PULL_SHARE[0] * left**2
-    ahead = np.minimum(slow + SPEED_SHARE[1] * speed * left, weak + PULL_SHARE[1] * speed * left)
-    behind = np.minimum(slow - SPEED_SHARE[1] * speed * left, weak - PULL_SHARE[1] * speed * left)
-    reach_low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
-    reach_high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
-    place_low = np.clip(now - behind, reach_low, reach_high)
-    place_high = np.clip(now + ahead, reach_low, reach_high)
-
-    # foothold + offset' = start tau - delta (tau - 1): the DCM at landing.
-    free = start * tau
-    lever = tau - 1.0
-    half = np.array(limits.zmp)
-    delta = np.zeros_like(free)
-    place = np.clip(np.broadcast_to(goal, free.shape), place_low, place_high)
-    carry = np.zeros_like(free)
-    carry_low, carry_high = _carried(limits, side, offset)
-    w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
-    for _ in range(30):  # coordinate descent: convex, three variables, a box
-        place = np.clip(
-            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
-            place_low,
-            place_high,
-        )
-        delta = np.clip(
-            w * lever * (free - offset - carry - place) / (w * lever * lever + z), -half, half
-        )
-        carry = np.clip(
-            w * (free - lever * delta - offset - place) / (w + c), carry_low, carry_high
-        )
-    miss = free - lever * delta - offset - carry - place
-    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
-    cost += k * ((place - current) ** 2).sum(axis=1)
+    land = _landing_times(t, step, nominal, float(swing[0][2]), limits)
+    here, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
+    box = _reachable(step.foot, here, speed, (land - t)[:, None], limits)
+    wanted = (
+        (nominal.pose[:2, 3] - origin) @ axes,
+        (step.pose[:2, 3] - origin) @ axes,
+        (planned[1] - step.pose[:2, 3]) @ axes,
+    )
+    tau = np.exp(limits.omega * (land + 0.5 * min(pause, SHORT_PAUSE) - t))[:, None]
+    carried = _carried(limits, step.foot, wanted[2])
+    place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, box, carried, half)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
-    x, y = place[best].tolist()
+
     heading = heading_of(stance)
     turn = heading_of(step.pose)[2] - heading[2]
-    sole = gait.clamp(step.foot, heading, compose(heading, x, y, turn))
+    x, y = place[best].tolist()
+    sole = limits.gait.clamp(step.foot, heading, compose(heading, x, y, turn))
     pose = pose_at(*sole, float(step.pose[2, 3]))
     if late and best == len(land) - 1:  # down at once; the next step keeps its time
         later = plan.steps[plan.steps.index(step) + 1 :]
@@ -208,12 +151,84 @@ def _best(
     return landed_at(plan, t, pose, float(land[best]))
 
 
-def _carried(limits: StepLimits, side: float, offset: Array) -> tuple[Array, Array]:
+def _landing_times(
+    t: float, step: Footstep, nominal: Footstep, height: float, limits: StepLimits
+) -> Array:
+    """Return the times (s) at which the foot, at `height` (m), may land; last, the present one.
+
+    Where that is so near that it stays, the last is at once.
+    """
+    height = max(0.0, height - float(step.pose[2, 3]))
+    drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
+    late = step.land - t < LATEST
+    first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
+    last = max(step.lift + limits.swing_time[1], first + LATEST)
+    keep = min(t + max(SOON, drop), step.land) if late else max(step.land, first)
+    return np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), keep))
+
+
+def _reachable(
+    foot: Foot, here: Array, speed: Array, left: Array, limits: StepLimits
+) -> tuple[Array, Array]:
+    """Return the lowest and highest footholds (N, 2), m, in the stance foot's axes.
+
+    The leg reaches them, and the foot, now at `here` (2,) with `speed` (2,), gets there in the time
+    `left` (N, 1), s.
+    """
+    gait, side = limits.gait, 1.0 if foot == "left" else -1.0
+    slow = limits.swing_speed * SPEED_SHARE[0] * left
+    weak = limits.swing_pull * PULL_SHARE[0] * left**2
+    ahead = np.minimum(slow + SPEED_SHARE[1] * speed * left, weak + PULL_SHARE[1] * speed * left)
+    behind = np.minimum(slow - SPEED_SHARE[1] * speed * left, weak - PULL_SHARE[1] * speed * left)
+    low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
+    high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
+    return np.clip(here - behind, low, high), np.clip(here + ahead, low, high)
+
+
+def _footholds(
+    free: Array,
+    lever: Array,
+    wanted: tuple[Array, Array, Array],
+    box: tuple[Array, Array],
+    carried: tuple[Array, Array],
+    half: Array,
+) -> tuple[Array, Array]:
+    """Return the best foothold (N, 2) of each landing time and its cost (N,).
+
+    The DCM lands at free - lever delta = foothold + offset + carry + miss; the miss costs most.
+
+    Args:
+        free: (N, 2) where the DCM is at landing with the ZMP at the stance foot's centre (m).
+        lever: (N, 1) how far a ZMP 1 m from there moves it (m).
+        wanted: (2,) each: the commanded foothold, the present one, and the DCM's offset from it.
+        box: lowest and highest footholds, (N, 2) each.
+        carried: lowest and highest offset that the next step can catch, (2,) each.
+        half: (2,) largest shift of the ZMP.
+    """
+    goal, current, offset = wanted
+    delta, carry = np.zeros_like(free), np.zeros_like(free)
+    w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
+    for _ in range(30):  # coordinate descent: convex, three variables, a box
+        place = np.clip(
+            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
+            *box,
+        )
+        delta = np.clip(
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z), -half, half
+        )
+        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), *carried)
+    miss = free - lever * delta - offset - carry - place
+    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
+    cost += k * ((place - current) ** 2).sum(axis=1)
+    return place, cost
+
+
+def _carried(limits: StepLimits, foot: Foot, offset: Array) -> tuple[Array, Array]:
     """Return how far (2,) below and above the plan's DCM offset the next step can still catch it.
 
     The next step brings the DCM back to its foot from offsets up to its reach, shrunk by the growth
     of the DCM meanwhile, and the sole's half size, by its ZMP; beyond the outer edge it cannot.
-    Axes of the stance foot; `side`: 1 where the left foot is in the air, else -1.
+    Axes of the stance foot; `foot` is in the air.
     """
     gait, half = limits.gait, np.array(limits.zmp)
     decay = exp(-limits.omega * (limits.swing_time[0] + SHORT_PAUSE))
@@ -221,7 +236,7 @@ def _carried(limits: StepLimits, side: float, offset: Array) -> tuple[Array, Arr
     back, inner = decay * gait.backward + ankle[0], decay * gait.max_width + ankle[1]
     ahead, outer = decay * gait.forward + ankle[0], ankle[1]
     # The foot that lands has its inner side where the other one is.
-    low, high = (inner, outer) if side > 0 else (outer, inner)
+    low, high = (inner, outer) if foot == "left" else (outer, inner)
     return (
         np.minimum(-CATCH * np.array((back, low)) - offset, -CARRY * half),
         np.maximum(CATCH * np.array((ahead, high)) - offset, CARRY * half),
