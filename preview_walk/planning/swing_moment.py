@@ -9,7 +9,8 @@ import numpy as np
 
 from preview_walk.planning.cart_table import GRAVITY
 from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.swing_trajectory import Quintic, swing_of
+from preview_walk.planning.quintic import Quintic
+from preview_walk.planning.swing_trajectory import swing_of
 from preview_walk.types import Array, Foot
 
 
