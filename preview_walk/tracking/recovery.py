@@ -47,7 +47,7 @@ by the time it takes to unload the foot. Who stands goes on standing while the D
 soles: the swing of a leg would push it further."""
 
 SMOOTH = 0.006
-"""Time constant (s) of the push's estimate."""
+"""Time constant (s) of the push's estimate, which every touch of a foot disturbs."""
 
 HOLD = 0.95
 """Share of the sole within which the ZMP can be held."""
