@@ -26,7 +26,7 @@ from preview_walk.errors import PreviewWalkError
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.problem import TickProblem
+from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Array, Foot
 

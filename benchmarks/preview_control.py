@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from preview_walk.planning.preview_controller import ComState, PreviewController
+from preview_walk.preview.controller import ComState, PreviewController
 from preview_walk.types import Array
 
 DT = 0.005

@@ -11,8 +11,8 @@ from __future__ import annotations
 import time
 from typing import get_args
 
-from preview_walk.planning.push_bound import Answer, Direction, PushGait, largest_impulse
-from preview_walk.planning.support import Sole
+from preview_walk.capturability.bound import Answer, Direction, PushGait, largest_impulse
+from preview_walk.geometry.support import Sole
 
 TALOS = PushGait(
     mass=90.3,

@@ -7,7 +7,7 @@ By bisection, for 8 directions, 5 phases of single support and standing, left an
 Every cell that is done goes into a file (JSON lines); stopped and started again, the benchmark goes
 on from there. A cell counts up to its smallest push that was not survived: below the bisection's
 result a grid of smaller pushes is tried too, so that no lucky island counts. At the end it prints a
-table and draws a polar plot over the bound (`preview_walk.planning.push_bound`).
+table and draws a polar plot over the bound (`preview_walk.capturability.bound`).
 
 Survived: the robot walks on, or stands again, for 6 s after the push. Angles are in degrees from
 straight ahead towards the stance foot's side: 90 is outward, 270 inward.
@@ -32,7 +32,7 @@ from push_bound_table import GAITS
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.planning.push_bound import Answer, largest_impulse
+from preview_walk.capturability.bound import Answer, largest_impulse
 from preview_walk.types import Foot, other
 
 ANGLES = tuple(range(0, 360, 45))

@@ -31,9 +31,9 @@ from speed_sweep import holds, walk_at
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.planning.gaits import turn_in_place
-from preview_walk.robots.description import catalogue
-from preview_walk.simulation.placing import command_limits
+from preview_walk.controller.robot_limits import command_limits
+from preview_walk.footsteps.gaits import turn_in_place
+from preview_walk.robots.reading.description import catalogue
 
 GRAVITY = 9.81
 CLOSE = 0.0125

@@ -15,7 +15,7 @@ import osqp
 import qpsolvers
 import scipy.sparse as sparse
 
-from preview_walk.tracking.problem import TickProblem
+from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.types import Array
 
 Solve = Callable[[], tuple[Array, Array]]

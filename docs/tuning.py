@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.robots.robot import Robot
 
 HERE = Path(__file__).parent

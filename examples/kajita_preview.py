@@ -13,10 +13,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from preview_walk.planning.cart_table import cart_table
-from preview_walk.planning.preview_controller import PreviewController
-from preview_walk.planning.preview_gains import preview_gains
-from preview_walk.planning.preview_response import preview_effect
+from preview_walk.preview.cart_table import cart_table
+from preview_walk.preview.controller import PreviewController
+from preview_walk.preview.gains import preview_gains
+from preview_walk.preview.response import preview_effect
 from preview_walk.types import Array
 
 Z_C, DT = 0.814, 0.005

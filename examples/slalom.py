@@ -10,7 +10,7 @@ import numpy as np
 
 import preview_walk as pw
 from preview_walk.analysis.plots import top_view
-from preview_walk.planning.pose import midfeet
+from preview_walk.geometry.poses import midfeet
 
 SPACING, SWING, POLES = 2.0, 0.5, 4  # m between poles, m to their sides, number of poles
 SPEED, AHEAD = 0.35, 0.7  # m/s, and the distance (m) at which the steering looks

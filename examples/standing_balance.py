@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import preview_walk as pw
-from preview_walk.planning.quintic import Quintic
+from preview_walk.geometry.quintic import Quintic
 from preview_walk.simulation.world import World
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.whole_body import WholeBodyController

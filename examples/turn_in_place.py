@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import preview_walk as pw
 from preview_walk.analysis.top_view import draw_top_view
-from preview_walk.simulation.placing import gait_limits
+from preview_walk.controller.robot_limits import gait_limits
 
 
 def main() -> None:

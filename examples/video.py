@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.simulation.video import FPS, frames
+from preview_walk.viewer.video import FPS, frames
 
 COUNT = 6
 

@@ -8,7 +8,19 @@ class PreviewWalkError(Exception):
 
 
 class InvalidInput(PreviewWalkError, ValueError):
-    """An argument that cannot be: says what was expected, what came and what is allowed."""
+    """An argument that cannot be: says what was expected, what came and what is allowed.
+
+    Attributes:
+        argument: name of the argument at fault ("step_time"), where one is.
+    """
+
+    def __init__(self, message: str, argument: str | None = None) -> None:
+        super().__init__(message)
+        self.argument = argument
+
+    def __reduce__(self) -> tuple[type[InvalidInput], tuple[str, str | None]]:
+        """Keep the argument through pickling, as from a worker process."""
+        return type(self), (str(self), self.argument)
 
 
 class RobotError(InvalidInput):

@@ -1,7 +1,56 @@
-"""Settings shared by all tests."""
+"""Settings of all tests, and the robots and walks that several of them look at, made once each."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
 from hypothesis import settings
+
+import preview_walk as pw
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.record.record import Record
+from preview_walk.robots.robot import Robot
 
 # Same input, same output: property tests draw the same examples in every run.
 settings.register_profile("deterministic", derandomize=True, deadline=None)
 settings.load_profile("deterministic")
+
+
+@pytest.fixture(scope="session")
+def talos() -> Robot:
+    return pw.load_robot("talos")
+
+
+@pytest.fixture(scope="session", params=["talos", "icub", "alexander"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return pw.load_robot(request.param)
+
+
+@pytest.fixture(scope="session")
+def make_walk(talos: Robot) -> Callable[..., pw.Walk]:
+    """Return a maker of short walks of TALOS: 0.25 m steps, both feet, contact switches."""
+
+    def make(steps: int = 2, **settings: object) -> pw.Walk:
+        plan = pw.FootstepPlanner(0.25, talos.step_width, 0.9).generate_footsteps(steps)
+        return pw.Walk(talos, plan, **settings)  # type: ignore[arg-type]
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def short_plan(talos: Robot) -> FootstepPlan:
+    """Return five steps like those of the default walk."""
+    return pw.FootstepPlanner(0.25, talos.step_width, 0.8).generate_footsteps(5, ramp=1)
+
+
+@pytest.fixture(scope="session")
+def short_walk(talos: Robot, short_plan: FootstepPlan) -> Record:
+    return pw.simulate(talos, short_plan)
+
+
+@pytest.fixture(scope="session")
+def default_walk(talos: Robot) -> Record:
+    """Return the walk of the bare command: 20 steps of 0.25 m in 0.9 s."""
+    planner = pw.FootstepPlanner(0.25, talos.step_width, 0.9)
+    return pw.simulate(talos, planner.generate_footsteps(20, ramp=2))

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from preview_walk.planning.footstep_planner import FootstepPlanner
-from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.simulation.record import Record
-from preview_walk.simulation.recorder import Recorder
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.record.record import Record
+from preview_walk.record.recorder import Recorder
 
 DT = 0.005
 COM_ERROR = np.array([0.002, -0.001, 0.003])

@@ -91,7 +91,7 @@ def test_the_choice_of_the_user_stands_and_its_failure_is_told(
 
 
 def test_the_camera_of_a_film_does_not_sway() -> None:
-    from preview_walk.simulation.video import _smooth
+    from preview_walk.viewer.video import _smooth
 
     t = np.linspace(0.0, 10.0, 1001)
     path = np.column_stack([0.3 * t, 0.05 * np.sin(2 * np.pi * t / 0.8), np.full_like(t, 0.8)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 
 
 def assert_within_the_bars(record: Record) -> None:

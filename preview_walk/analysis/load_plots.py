@@ -17,8 +17,8 @@ from preview_walk.analysis.style import (
     planned_key,
     shade_phases,
 )
-from preview_walk.analysis.summary import torque_ratios
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
+from preview_walk.record.summary import torque_ratios
 from preview_walk.types import Array
 
 _LOADED = 0.05

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 
-from preview_walk.analysis.geometry import from_start, start_frame, turn
+from preview_walk.analysis.frame import from_start, start_frame
 from preview_walk.analysis.style import (
     COM,
     DCM,
@@ -17,7 +17,8 @@ from preview_walk.analysis.style import (
     planned_key,
     shade_phases,
 )
-from preview_walk.simulation.record import Record
+from preview_walk.geometry.planar import turn
+from preview_walk.record.record import Record
 
 
 def draw_axis(ax: Axes, record: Record, axis: int) -> None:

@@ -8,7 +8,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from preview_walk.analysis.style import COM, FOOT_COLOURS, ZMP, finish, legend, mark_fall, spans
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
 
 

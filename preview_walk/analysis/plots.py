@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from preview_walk.analysis.geometry import from_start
+from preview_walk.analysis.frame import from_start
 from preview_walk.analysis.load_plots import (
     draw_forces,
     draw_friction,
@@ -25,7 +25,7 @@ from preview_walk.analysis.phase_plots import draw_phases, draw_timing_errors
 from preview_walk.analysis.style import new_figure, save_figure
 from preview_walk.analysis.top_view import draw_top_view
 from preview_walk.errors import InvalidInput
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 
 
 def top_view(record: Record) -> Figure:

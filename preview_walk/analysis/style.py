@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 from preview_walk.types import FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
 # Okabe and Ito's palette: told apart with any common colour vision, and in grey.

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Polygon
 
-from preview_walk.analysis.geometry import from_start, sole_corners, start_frame
+from preview_walk.analysis.frame import from_start, sole_corners, start_frame
 from preview_walk.analysis.style import (
     COM,
     FOOT_COLOURS,
@@ -18,7 +18,7 @@ from preview_walk.analysis.style import (
     legend,
     planned_key,
 )
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 from preview_walk.types import FEET, Array
 
 _FALLBACK_SOLE = (0.1, 0.05)

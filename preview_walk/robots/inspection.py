@@ -10,15 +10,15 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.description import Description, describe
+from preview_walk.robots.building.posture import walking_posture
+from preview_walk.robots.building.statics import carrying_torques
 from preview_walk.robots.load import load_robot
-from preview_walk.robots.mjcf import compile_spec
 from preview_walk.robots.picture import write_picture
-from preview_walk.robots.posture import walking_posture
+from preview_walk.robots.reading.description import Description, describe
+from preview_walk.robots.reading.mjcf import compile_spec
+from preview_walk.robots.reading.shapes import add_shapes
+from preview_walk.robots.reading.source import read_source
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.shapes import add_shapes
-from preview_walk.robots.source import read_source
-from preview_walk.robots.statics import carrying_torques
 from preview_walk.types import FEET, Array
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.description import catalogue
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import catalogue
 
 _HEAD = ("name", "robot", "mass (kg)", "joints", "leg (m)", "CoM (m)", "sole (m)")
 

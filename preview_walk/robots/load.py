@@ -9,14 +9,14 @@ import mujoco
 import numpy as np
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.assemble import assemble
-from preview_walk.robots.build import build_robot
-from preview_walk.robots.description import Description, describe
-from preview_walk.robots.mjcf import compile_spec
-from preview_walk.robots.rebuild import rebuild
+from preview_walk.robots.building.assemble import assemble
+from preview_walk.robots.building.build import build_robot
+from preview_walk.robots.building.rebuild import rebuild
+from preview_walk.robots.reading.description import Description, describe
+from preview_walk.robots.reading.mjcf import compile_spec
+from preview_walk.robots.reading.shapes import add_bones, add_shapes
+from preview_walk.robots.reading.source import read_source
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.shapes import add_bones, add_shapes
-from preview_walk.robots.source import read_source
 
 
 def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:

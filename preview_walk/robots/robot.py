@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import mujoco
 import pinocchio as pin
 
-from preview_walk.robots.posture import Leg
-from preview_walk.robots.soles import SolePatch
-from preview_walk.robots.structure import Structure
-from preview_walk.robots.tree import Tree
-from preview_walk.robots.urdf import Urdf
+from preview_walk.robots.building.posture import Leg
+from preview_walk.robots.finding.soles import SolePatch
+from preview_walk.robots.finding.structure import Structure
+from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.reading.urdf import Urdf
 from preview_walk.types import Array, Foot
 
 

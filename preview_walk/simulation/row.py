@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from preview_walk.robots.contact_sensor import zmp
+from preview_walk.controller.feet import CONTACT_FORCE, sole_pose
+from preview_walk.controller.walker import Walker
+from preview_walk.record.recorder import package_versions
+from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push
-from preview_walk.simulation.recorder import package_versions
 from preview_walk.simulation.world import World
-from preview_walk.tracking.feet import CONTACT_FORCE, sole_pose
-from preview_walk.tracking.walker import Walker
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
 NO_CONTACT = -1

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypedDict
 
-from preview_walk.planning.check import require_walkable
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.controller.robot_limits import gait_limits
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.pattern.check import require_walkable
+from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import gait_limits
 from preview_walk.simulation.pushes import Push
-from preview_walk.simulation.record import Record
 from preview_walk.simulation.walk import Command, Progress, Walk
 from preview_walk.tracking.gains import TrackingGains
 
@@ -87,7 +87,7 @@ def simulate_commands(
 def _recorded(walk: Walk, progress: Progress | None, viewer: bool) -> Record:
     """Run a walk to its end and return its record."""
     if viewer:
-        from preview_walk.simulation.viewer import run_in_viewer
+        from preview_walk.viewer.window import run_in_viewer
 
         run_in_viewer(walk, progress)
     else:

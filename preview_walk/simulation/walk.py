@@ -9,21 +9,22 @@ from typing import Any
 
 import numpy as np
 
+from preview_walk.controller.robot_limits import command_limits
+from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
-from preview_walk.planning.footstep_planner import FootstepPlanner
-from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.velocity import follow_velocity, saturated
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.velocity import follow_velocity, saturated
+from preview_walk.record.record import Record
+from preview_walk.record.recorder import Recorder
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import command_limits, standing_configuration
+from preview_walk.robots.standing import standing_configuration
 from preview_walk.simulation.pushes import Push
-from preview_walk.simulation.record import Record
-from preview_walk.simulation.recorder import Recorder
 from preview_walk.simulation.row import run_settings, tick_row
 from preview_walk.simulation.world import World, steps_per_tick
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.walker import Walker
 from preview_walk.types import FEET
 
 FRICTION = 0.8
@@ -89,7 +90,7 @@ class Walk:
         self._dt = 1.0 / control_hz
         model = visual_model(robot) if visuals else robot.mj
         self.world = World(robot, model, physics_hz, friction, pushes)
-        q = standing_configuration(robot, plan)
+        q = standing_configuration(robot, plan[0].pose, plan[1].pose)
         self.world.place(q)
         self.world.data.time = plan.start
         self.walker = Walker(robot, plan, q, friction, gains, solver)

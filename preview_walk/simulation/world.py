@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 
 from preview_walk.errors import InvalidInput
-from preview_walk.robots.assemble import sole_name
-from preview_walk.robots.contact_sensor import WrenchSensor
+from preview_walk.robots.building.assemble import sole_name
+from preview_walk.robots.building.contact_sensor import WrenchSensor
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
 from preview_walk.simulation.pushes import Push, Pusher

@@ -10,14 +10,14 @@ import numpy as np
 import qpsolvers
 
 from preview_walk.errors import InvalidInput
-from preview_walk.robots.posture import leg_joints
+from preview_walk.robots.building.posture import leg_joints
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.backends import DEFAULT, Backend, Solution, make_backend
 from preview_walk.tracking.contacts import load_shares
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.problem import TickProblem
-from preview_walk.tracking.safety import Fallback, QPFailure, check_state
+from preview_walk.tracking.qp.problem import TickProblem
+from preview_walk.tracking.qp.safety import Fallback, QPFailure, check_state
+from preview_walk.tracking.qp.solvers import DEFAULT, Backend, Solution, make_backend
 from preview_walk.tracking.tasks import (
     AngularMomentumTask,
     CoMTask,

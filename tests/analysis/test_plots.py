@@ -13,13 +13,12 @@ from matplotlib.image import imread
 from matplotlib.patches import Polygon
 from synthetic_walk import DT, FOOT_ERROR, walk_record
 
-from preview_walk.analysis import PLOTS, plot, plot_all, save_plot
 from preview_walk.analysis.phase_plots import contact, timing_errors
-from preview_walk.analysis.plots import top_view, torques
+from preview_walk.analysis.plots import PLOTS, plot, plot_all, save_plot, top_view, torques
 from preview_walk.analysis.style import new_figure, spans
 from preview_walk.analysis.top_view import draw_top_view, measured_footprints, planned_footprints
 from preview_walk.errors import InvalidInput
-from preview_walk.simulation.record import Record
+from preview_walk.record.record import Record
 
 
 @pytest.fixture(scope="module")

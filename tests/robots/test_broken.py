@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.agreement import check_agreement
-from preview_walk.robots.assemble import sole_name
-from preview_walk.robots.description import models_folder
+from preview_walk.robots.building.agreement import check_agreement
+from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.inspection import inspect_robot
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import models_folder
 from preview_walk.types import FEET
 
 WALKER = (models_folder() / "humanoid-walker.xml").read_text()

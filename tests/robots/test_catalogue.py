@@ -7,10 +7,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from preview_walk.robots.agreement import disagreement
-from preview_walk.robots.assemble import sole_name
-from preview_walk.robots.description import catalogue
+from preview_walk.robots.building.agreement import disagreement
+from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import catalogue
 from preview_walk.robots.state import to_mujoco
 from preview_walk.types import FEET
 

@@ -7,7 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from preview_walk.robots.contact_sensor import WrenchSensor, add_wrench_sensor, zmp
+from preview_walk.robots.building.contact_sensor import WrenchSensor, add_wrench_sensor, zmp
 from preview_walk.types import Array
 
 MASS, GRAVITY = 20.0, 9.81

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from preview_walk.robots.description import catalogue, models_folder
 from preview_walk.robots.inspection import inspect_robot, one_leg_torques
 from preview_walk.robots.listing import list_robots
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import catalogue, models_folder
 
 
 def test_the_table_has_every_robot():

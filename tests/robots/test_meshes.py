@@ -7,10 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from preview_walk.robots.description import example_robot_data
 from preview_walk.robots.load import load_robot, visual_model
-from preview_walk.robots.meshes import mesh_file, read_mesh
-from preview_walk.robots.shapes import VISUAL_GROUP
+from preview_walk.robots.reading.description import example_robot_data
+from preview_walk.robots.reading.meshes import mesh_file, read_mesh
+from preview_walk.robots.reading.shapes import VISUAL_GROUP
 
 
 @pytest.fixture

@@ -7,12 +7,12 @@ from dataclasses import fields
 from pathlib import Path
 
 import preview_walk
-from preview_walk.robots.description import Description, SoleFact, catalogue
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import Description, SoleFact, catalogue
 
 PACKAGE = Path(preview_walk.__file__).parent
 
-DEFAULT_ROBOT = ("cli_options.py", "talos")
+DEFAULT_ROBOT = ("cli/options.py", "talos")
 """The robot that walks where none is named."""
 
 COMMON = {"left_foot", "right_foot"}

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from preview_walk.robots.soles import inscribed_rectangle
+from preview_walk.robots.finding.soles import inscribed_rectangle
 
 coordinates = st.floats(-1.0, 1.0).map(lambda x: round(x, 3))
 clouds = st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=20, unique=True)

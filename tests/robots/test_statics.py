@@ -6,15 +6,15 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from preview_walk.robots.description import catalogue
-from preview_walk.robots.load import load_robot
-from preview_walk.robots.statics import (
+from preview_walk.robots.building.statics import (
     CROUCHED,
     KNEE_SHARE,
     STRETCHED,
     carrying_torques,
     straightened,
 )
+from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import catalogue
 from preview_walk.types import FEET
 
 ROBOT = cache(load_robot)

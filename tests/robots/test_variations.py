@@ -8,8 +8,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from preview_walk.robots.description import models_folder
 from preview_walk.robots.load import load_robot, visual_model
+from preview_walk.robots.reading.description import models_folder
 from preview_walk.types import FEET
 
 XML = models_folder() / "humanoid-walker.xml"

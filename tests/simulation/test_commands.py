@@ -12,10 +12,10 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
-from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.velocity import follow_velocity
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.velocity import follow_velocity
+from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.record import Record
 
 
 @pytest.fixture(scope="module")

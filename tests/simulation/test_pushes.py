@@ -12,7 +12,7 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
-from preview_walk.planning.footsteps import FootstepPlan
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.world import World

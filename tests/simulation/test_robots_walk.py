@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import preview_walk as pw
-from preview_walk.analysis.summary import Summary
-from preview_walk.planning.gaits import turn_in_place
+from preview_walk.controller.robot_limits import command_limits
+from preview_walk.footsteps.gaits import turn_in_place
+from preview_walk.record.summary import Summary
 from preview_walk.robots.inspection import one_leg_torques
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import command_limits
 
 
 def planner_for(robot: Robot) -> pw.FootstepPlanner:

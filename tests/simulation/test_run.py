@@ -11,8 +11,8 @@ from walk_bars import assert_within_the_bars
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
-from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.gaits import straight
+from preview_walk.footsteps.gaits import straight
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.walk import STAND_AFTER
 from preview_walk.tracking.gains import TrackingGains

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import preview_walk as pw
+from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.placing import gait_limits
 
 
 @pytest.fixture(scope="module")

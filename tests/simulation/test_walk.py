@@ -7,13 +7,13 @@ import pytest
 from walk_bars import assert_within_the_bars
 
 import preview_walk as pw
-from preview_walk.analysis.summary import torque_ratios
-from preview_walk.planning.footsteps import FootstepPlan
-from preview_walk.planning.pose import pose_at
-from preview_walk.planning.support import Sole, support_margin, support_polygon
-from preview_walk.robots.contact_sensor import zmp
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.geometry.poses import pose_at
+from preview_walk.geometry.support import Sole, support_margin, support_polygon
+from preview_walk.record.record import Record
+from preview_walk.record.summary import torque_ratios
+from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.record import Record
 from preview_walk.simulation.walk import STAND_AFTER
 from preview_walk.types import FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
 

@@ -5,7 +5,7 @@ import pinocchio as pin
 
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.problem import TickProblem
+from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 

@@ -14,10 +14,10 @@ from tracking.states import FRICTION, full_load, standing_controller
 from preview_walk import FootstepPlanner, Walk
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.backends import Backend, OsqpBackend, Solution
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.problem import TickProblem
-from preview_walk.tracking.safety import DAMPED_POSTURE, LAST_SOLUTION, SOLVED
+from preview_walk.tracking.qp.problem import TickProblem
+from preview_walk.tracking.qp.safety import DAMPED_POSTURE, LAST_SOLUTION, SOLVED
+from preview_walk.tracking.qp.solvers import Backend, OsqpBackend, Solution
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Array, Foot
 

@@ -1,0 +1,5 @@
+"""Footsteps as values, the plans made of them, and the planners that make plans.
+
+Imports `geometry`; it knows no robot and no simulator. Start with `footstep` and `plan`, then
+`planner` for a walk of equal steps and `velocity` for one by command.
+"""

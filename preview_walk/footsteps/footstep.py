@@ -1,0 +1,75 @@
+"""A footstep as a value: which foot, where its sole is put down, and when it flies there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any, Literal
+
+from preview_walk.errors import InvalidInput
+from preview_walk.geometry.poses import as_pose, yaw_of
+from preview_walk.types import FEET, Array, Foot
+
+_LAB_KEYS = ("foot", "pos", "time", "type")
+
+
+@dataclass(frozen=True, eq=False)
+class Footstep:
+    """One sole on the ground: where it is put down, and when the foot flies there.
+
+    Attributes:
+        foot: "left" or "right".
+        pose: sole frame in the world, (4, 4), read-only (origin at the centre of the sole
+            rectangle, x towards the toes, z up; yaw, height and slope included).
+        lift: time (s) at which the foot leaves the ground.
+        land: time (s) at which the sole is down at `pose`.
+        type: "swing_end" for a step; "stance" for the two soles a plan starts on (lift == land).
+        again: whether the foot that stepped last may step again at once, as after a push.
+
+    Raises:
+        InvalidInput: unknown foot or type, no pose, or times that are not finite and in order.
+    """
+
+    foot: Foot
+    pose: Array
+    lift: float
+    land: float
+    type: Literal["stance", "swing_end"] = "swing_end"
+    again: bool = False
+
+    def __post_init__(self) -> None:
+        if self.foot not in FEET:
+            raise InvalidInput(f"foot must be 'left' or 'right', got {self.foot!r}.")
+        if self.type not in ("stance", "swing_end"):
+            raise InvalidInput(f"type must be 'stance' or 'swing_end', got {self.type!r}.")
+        object.__setattr__(self, "pose", as_pose(self.pose, f"pose of the {self.foot} footstep"))
+        lift, land = float(self.lift), float(self.land)
+        ordered = lift == land if self.type == "stance" else lift < land
+        if not (isfinite(lift) and isfinite(land) and ordered):
+            allowed = "lift == land" if self.type == "stance" else "lift < land"
+            raise InvalidInput(
+                f"a {self.type} footstep needs finite times with {allowed}, got {lift} s, {land} s."
+            )
+        object.__setattr__(self, "lift", lift)
+        object.__setattr__(self, "land", land)
+
+    @property
+    def pos(self) -> Array:
+        """Position (3,) of the sole centre in the world, m."""
+        return self.pose[:3, 3]
+
+    @property
+    def yaw(self) -> float:
+        """Heading of the sole in the world, rad in [-pi, pi]."""
+        return yaw_of(self.pose)
+
+    @property
+    def time(self) -> float:
+        """Landing time (s); for a stance sole the start of the plan."""
+        return self.land
+
+    def __getitem__(self, key: str) -> Any:
+        """Return one of the walking lab's keys: foot, pos, time, type."""
+        if key not in _LAB_KEYS:
+            raise KeyError(f"a footstep has the keys {', '.join(_LAB_KEYS)}, not {key!r}")
+        return getattr(self, key)

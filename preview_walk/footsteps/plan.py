@@ -1,0 +1,237 @@
+"""The plan: an immutable sequence of footsteps, of which every reference is a function.
+
+To change a walk, make another plan (`FootstepPlan.replace_after`). All look-ups bisect.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from math import isfinite
+from typing import overload
+
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.footstep import Footstep
+from preview_walk.geometry.poses import as_pose
+from preview_walk.types import (
+    DOUBLE_SUPPORT,
+    FEET,
+    LEFT_SUPPORT,
+    RIGHT_SUPPORT,
+    Array,
+    Foot,
+    other,
+)
+
+SETTLE_TIME = 0.4
+"""Default time (s) in which the ZMP goes from one foot to midfeet, or from midfeet to one foot."""
+
+
+class FootstepPlan(Sequence[Footstep]):
+    """An immutable walk: two standing soles, then swing steps in time order.
+
+    `plan[0]` and `plan[1]` are the left and right soles stood on at `start`, `plan[2:]` (also
+    `steps`) the swing steps, numbered from 1 in messages.  A pause of at least `2 * settle`
+    between a landing and the next lift is a *stand*: the ZMP comes to rest between the feet, and
+    either foot may go first.
+
+    Args:
+        steps: the two stance soles (in either order) and then the swing steps.
+        settle: time (s) of a ZMP shift between one foot and midfeet, in stands and at the end.
+
+    Raises:
+        InvalidInput: the first two are not one stance sole of each foot at one time, feet do not
+            alternate, or a step does not lift after the step before it has landed.
+    """
+
+    __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_settle", "_steps")
+
+    def __init__(self, steps: Iterable[Footstep], settle: float = SETTLE_TIME) -> None:
+        items = tuple(steps)
+        settle = float(settle)
+        if not (isfinite(settle) and settle > 0.0):
+            raise InvalidInput(f"settle must be a time > 0 s, got {settle}.")
+        stance = items[:2]
+        if {s.foot for s in stance if s.type == "stance"} != set(FEET):
+            found = ", ".join(f"{s.foot} {s.type}" for s in stance) or "nothing"
+            raise InvalidInput(
+                f"a plan must begin with one left and one right stance footstep, got {found}."
+            )
+        if stance[0].land != stance[1].land:
+            both = " and ".join(f"{s.land} s" for s in stance)
+            raise InvalidInput(f"both stance footsteps must have the same time, got {both}.")
+        if stance[0].foot == "right":
+            items = (items[1], items[0], *items[2:])
+        self._fill((), items, settle)
+
+    @classmethod
+    def standing(
+        cls, left: Array, right: Array, start: float = 0.0, settle: float = SETTLE_TIME
+    ) -> FootstepPlan:
+        """Return the plan without steps: both soles (poses, (4, 4)) stand from `start` (s) on."""
+        soles = zip(FEET, (left, right), strict=True)
+        return cls([Footstep(foot, pose, start, start, "stance") for foot, pose in soles], settle)
+
+    def _fill(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...], settle: float) -> None:
+        """Set the fields; `kept` was checked before, only `new` is checked here."""
+        self._items = kept + new
+        self._steps = self._items[2:]
+        self._settle = settle
+        for index in range(max(2, len(kept)), len(self._items)):
+            self._check(index)
+        self._lifts = [s.lift for s in self._steps]
+        self._lands = [s.land for s in self._steps]
+        self._by_foot: dict[str, tuple[list[float], list[Footstep]]] = {}
+        for foot in FEET:
+            own = [s for s in self._items if s.foot == foot]
+            self._by_foot[foot] = ([s.land for s in own], own)
+
+    def _check(self, index: int) -> None:
+        step, before, number = self._items[index], self._items[index - 1], index - 1
+        if step.type != "swing_end":
+            raise InvalidInput(f"step {number} must be of type 'swing_end', got {step.type!r}.")
+        if step.lift <= before.land:
+            since = f"step {number - 1} lands" if number > 1 else "the plan starts"
+            raise InvalidInput(
+                f"step {number} must lift after {since} at {before.land:.3f} s, "
+                f"got a lift at {step.lift:.3f} s."
+            )
+        pause = step.lift - before.land
+        if number > 1 and step.foot == before.foot and not (step.again or self.is_stand(pause)):
+            raise InvalidInput(
+                f"step {number} must be taken by the {other(step.foot)} foot, because step "
+                f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "
+                f"(a foot may go twice after a stand of {2 * self._settle:.3f} s)."
+            )
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    @overload
+    def __getitem__(self, index: int) -> Footstep: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Footstep, ...]: ...
+    def __getitem__(self, index: int | slice) -> Footstep | tuple[Footstep, ...]:
+        return self._items[index]
+
+    def __repr__(self) -> str:
+        return f"FootstepPlan({len(self.steps)} steps, {self.start:.3f} s to {self.end:.3f} s)"
+
+    @property
+    def steps(self) -> tuple[Footstep, ...]:
+        """The swing steps, in time order."""
+        return self._steps
+
+    @property
+    def settle(self) -> float:
+        """Time (s) of a ZMP shift between one foot and midfeet."""
+        return self._settle
+
+    @property
+    def start(self) -> float:
+        """Time (s) from which the two first soles stand."""
+        return self._items[0].land
+
+    @property
+    def end(self) -> float:
+        """Time (s) at which the weight is back between the feet after the last landing."""
+        return self._lands[-1] + self._settle if self._lands else self.start
+
+    def support(self, t: float) -> int:
+        """Return the phase code at time t (s): 0 double, 1 left, 2 right support."""
+        step = self.swing_at(t)
+        if step is None:
+            return DOUBLE_SUPPORT
+        return LEFT_SUPPORT if step.foot == "right" else RIGHT_SUPPORT
+
+    def swing_at(self, t: float) -> Footstep | None:
+        """Return the step in the air at time t (s), lift <= t < land, or None."""
+        index = bisect_right(self._lifts, t) - 1
+        return self._steps[index] if index >= 0 and t < self._lands[index] else None
+
+    def sole(self, foot: Foot, t: float) -> Array:
+        """Return where `foot` stands at time t (s), (4, 4); while it swings, where it lifted."""
+        lands, own = self._by_foot[foot]
+        return own[max(0, bisect_right(lands, t) - 1)].pose
+
+    def start_pose(self, step: Footstep) -> Array:
+        """Return the (4, 4) sole pose from which `step` lifts."""
+        return self.sole(step.foot, step.lift)
+
+    def next_landing(self, t: float) -> Footstep | None:
+        """Return the first step that lands after time t (s), or None."""
+        index = bisect_right(self._lands, t)
+        return self._steps[index] if index < len(self._steps) else None
+
+    def next_lift(self, t: float) -> Footstep | None:
+        """Return the first step that lifts after time t (s), or None."""
+        index = bisect_right(self._lifts, t)
+        return self._steps[index] if index < len(self._steps) else None
+
+    def lifted(self, t: float) -> tuple[Footstep, ...]:
+        """Return the swing steps with lift <= t (s), which can no longer be unmade."""
+        return self._steps[: bisect_right(self._lifts, t)]
+
+    def is_stand(self, pause: float) -> bool:
+        """Return whether a double support of `pause` seconds is a stand (>= 2 settle)."""
+        return pause >= 2.0 * self._settle - 1e-9
+
+    def replace_after(self, t: float, steps: Iterable[Footstep]) -> FootstepPlan:
+        """Return the plan with the steps lifted by time t (s), followed by `steps`.
+
+        Raises:
+            InvalidInput: a new step lifts at or before t, or does not fit to those before it.
+        """
+        new = tuple(steps)
+        if new and new[0].lift <= t:
+            lift = new[0].lift
+            raise InvalidInput(f"a new step must lift after t = {t:.3f} s, got {lift:.3f} s.")
+        return self._with(self._items[: 2 + bisect_right(self._lifts, t)], new)
+
+    def retarget(self, t: float, pose: Array, land: float | None = None) -> FootstepPlan:
+        """Return the plan in which the foot in the air at time t (s) lands at `pose`.
+
+        Args:
+            t: now; some foot must be in the air.
+            pose: new sole pose of that step, (4, 4).
+            land: new landing time (s, > t), None keeps it; later steps move by the same time.
+
+        Raises:
+            InvalidInput: no foot is in the air at t, or `land` is not after t.
+        """
+        step = self.swing_at(t)
+        if step is None:
+            raise InvalidInput(
+                f"no foot is in the air at t = {t:.3f} s, so none can be retargeted."
+            )
+        land = step.land if land is None else float(land)
+        if not land > t:
+            raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
+        index = 1 + bisect_right(self._lifts, t)
+        later = self._items[index + 1 :]
+        if land != step.land:
+            delay = land - step.land
+            later = tuple(replace(s, lift=s.lift + delay, land=s.land + delay) for s in later)
+        return self._with(self._items[:index], (replace(step, pose=pose, land=land), *later))
+
+    def since(self, t: float) -> FootstepPlan:
+        """Return the plan without its past, the same at all times >= t (s): for endless walks."""
+        first = bisect_right(self._lands, t) - 2
+        if first <= 0:
+            return self
+        index = 2 + first
+        start = self._items[index - 1].land
+        soles = [(foot, self.sole(foot, start)) for foot in FEET]
+        stance = tuple(Footstep(foot, pose, start, start, "stance") for foot, pose in soles)
+        return self._with(stance, self._items[index:])
+
+    def transformed(self, pose: Array) -> FootstepPlan:
+        """Return the same walk elsewhere: every sole pose S becomes pose @ S, times unchanged."""
+        by = as_pose(pose, "pose")
+        return self._with(tuple(replace(s, pose=by @ s.pose) for s in self._items), ())
+
+    def _with(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...]) -> FootstepPlan:
+        plan = object.__new__(FootstepPlan)
+        plan._fill(kept, new, self._settle)
+        return plan

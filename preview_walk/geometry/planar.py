@@ -1,0 +1,31 @@
+"""The plane seen from above, for arrays of poses and points: yaw, turning, wrapping."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from preview_walk.types import Array
+
+
+def yaw(pose: Array) -> Array:
+    """Return the yaw (rad) of poses (..., 4, 4): the direction of their x axis in the plane."""
+    angle: Array = np.arctan2(pose[..., 1, 0], pose[..., 0, 0])
+    return angle
+
+
+def wrap(angle: Array) -> Array:
+    """Return angles (rad) brought into [-pi, pi)."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def mid_yaw(left: Array, right: Array) -> Array:
+    """Return the yaw (rad) half way between two sets of poses (..., 4, 4)."""
+    start = yaw(left)
+    return start + 0.5 * wrap(yaw(right) - start)
+
+
+def turn(points: Array, angle: Array | float) -> Array:
+    """Return plane vectors (..., 2) turned by `angle` (rad, one or one per vector)."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = points[..., 0], points[..., 1]
+    return np.stack([c * x - s * y, s * x + c * y], axis=-1)

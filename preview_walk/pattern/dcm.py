@@ -1,0 +1,22 @@
+"""The divergent component of motion (DCM), xi = c + c' / omega: what decides whether one falls."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import lfilter
+
+from preview_walk.types import Array
+
+
+def planned_dcm(zmp: Array, omega_dt: float) -> Array:
+    """Return the DCM (N, 2) in m that goes with a sampled ZMP (N, 2) in m.
+
+    xi(t) = omega * integral from t of exp(-omega (s - t)) p(s) ds: the one bounded solution of
+    xi' = omega (xi - p) (Englsberger et al. 2015, eq. 6 backwards in time), with the ZMP constant
+    over each sample and held after the last. `omega_dt` is omega times the sample time.
+    """
+    decay = float(np.exp(-omega_dt))
+    last = zmp[-1]
+    back, _ = lfilter([1.0 - decay], [1.0, -decay], zmp[::-1], axis=0, zi=decay * last[None])
+    result: Array = back[::-1]
+    return result

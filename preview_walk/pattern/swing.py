@@ -1,0 +1,230 @@
+"""The swing foot: piecewise quintics from lift to landing, at rest at both ends.
+
+x, y and the Z-Y-X angles follow one quintic each; the height follows two, over an apex halfway.
+Derivatives up to the acceleration are continuous, also through `Swing.retarget`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import cos, hypot, isfinite, sin
+
+import numpy as np
+
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.footstep import Footstep
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.geometry.poses import as_pose, rpy_of, wrap
+from preview_walk.geometry.quintic import Quintic, State
+from preview_walk.types import Array
+
+RISEN_SHARE = 0.48
+"""Share of its rise that the sole has made when a tenth of the horizontal travel is done."""
+
+DIP = 1e-3
+"""A retargeted foot may come this much (m) below its landing before it lands."""
+
+
+@dataclass(frozen=True, eq=False)
+class Swing:
+    """The path of one sole from lift to landing, as a value.
+
+    Attributes:
+        start: sole pose at lift, (4, 4).
+        end: sole pose at landing, (4, 4).
+        lift: time (s) at which the sole leaves the ground.
+        land: time (s) at which it is down.
+        swing_height: height (m) of the apex above the higher of the two soles.
+        ground_clearance: height (m) of the sole centre above the straight line from one sole
+            centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
+            apex is raised where `swing_height` alone does not.
+        plane, vertical: the quintics of x, y, yaw, pitch, roll; those of the height in time.
+
+    Raises:
+        InvalidInput: a pose that is none, times out of order, or a negative height.
+    """
+
+    start: Array
+    end: Array
+    lift: float
+    land: float
+    swing_height: float = 0.05
+    ground_clearance: float = 0.02
+    plane: tuple[Quintic, ...] = ()
+    vertical: tuple[Quintic, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check the fields; make the polynomials."""
+        if self.plane:
+            return
+        object.__setattr__(self, "start", as_pose(self.start, "start of the swing"))
+        object.__setattr__(self, "end", as_pose(self.end, "end of the swing"))
+        if not (isfinite(self.lift) and isfinite(self.land) and self.lift < self.land):
+            times = f"{self.lift} s, {self.land} s"
+            raise InvalidInput(f"a swing needs finite times with lift < land, got {times}.")
+        for name in ("swing_height", "ground_clearance"):
+            value = getattr(self, name)
+            if not (isfinite(value) and value >= 0.0):
+                raise InvalidInput(f"{name} must be >= 0 m, got {value}.")
+        first, last = _coordinates(self.start), _coordinates(self.end)
+        plane = tuple(
+            Quintic.between(self.lift, self.land, (p, 0.0, 0.0), (q, 0.0, 0.0))
+            for p, q in zip(first, _near(last, first), strict=True)
+        )
+        z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
+        middle = 0.5 * (self.lift + self.land)
+        vertical = _over(self.lift, (z0, 0.0, 0.0), middle, self._apex(z0, z1), self.land, z1)
+        object.__setattr__(self, "plane", plane)
+        object.__setattr__(self, "vertical", vertical)
+
+    def _apex(self, z0: float, z1: float) -> float:
+        return max(z0, z1) + max(self.swing_height, self.ground_clearance / RISEN_SHARE)
+
+    def at(self, t: float) -> tuple[Array, Array, Array]:
+        """Return pose (4, 4), velocity (6,) and acceleration (6,) of the sole at time t (s).
+
+        Velocity and acceleration are [linear; angular], in the world, of the sole frame's origin.
+        Before lift the sole is at `start`, after landing at `end`, at rest.
+        """
+        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
+            q.at(t) for q in self.plane
+        )
+        z, vz, az = self._height(t).at(t)
+        cw, sw, cp, sp, cr, sr = cos(w), sin(w), cos(p), sin(p), cos(r), sin(r)
+        pose = np.array(
+            [
+                [cw * cp, cw * sp * sr - sw * cr, cw * sp * cr + sw * sr, x],
+                [sw * cp, sw * sp * sr + cw * cr, sw * sp * cr - cw * sr, y],
+                [-sp, cp * sr, cp * cr, z],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+        # Angular velocity of Rz(w) Ry(p) Rx(r), and its derivative, in the world.
+        velocity = np.array(
+            [vx, vy, vz, cw * cp * vr - sw * vp, sw * cp * vr + cw * vp, vw - sp * vr]
+        )
+        acceleration = np.array(
+            [
+                ax,
+                ay,
+                az,
+                cw * cp * ar - sw * ap - cw * vw * vp - (sw * cp * vw + cw * sp * vp) * vr,
+                sw * cp * ar + cw * ap - sw * vw * vp + (cw * cp * vw - sw * sp * vp) * vr,
+                aw - sp * ar - cp * vp * vr,
+            ]
+        )
+        return pose, velocity, acceleration
+
+    def _height(self, t: float) -> Quintic:
+        for piece in self.vertical:
+            if t < piece.end:
+                return piece
+        return self.vertical[-1]
+
+    def retarget(self, t: float, pose: Array, land: float | None = None) -> Swing:
+        """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
+
+        Position, velocity and acceleration are continuous at t.  A foot that still rises goes
+        over an apex high enough for the new sole too; one that comes down goes to it directly,
+        or, when it is nearly down and the sole is elsewhere, rises again by the ground clearance.
+        Where a later landing would make it overshoot or dip into the ground, it finishes its old
+        motion and waits there.  The new swing knows nothing of the times before t.
+
+        Args:
+            t: now, s, lift <= t < land.
+            pose: sole pose (4, 4) of the new landing.
+            land: new landing time, s, > t; None keeps it.
+
+        Raises:
+            InvalidInput: t is not within the swing, or `land` is not after t.
+        """
+        land = self.land if land is None else float(land)
+        if not self.lift <= t < self.land:
+            span = f"{self.lift:.3f} s to {self.land:.3f} s"
+            raise InvalidInput(f"t must be within the swing, {span}, got {t}.")
+        if not (isfinite(land) and land > t):
+            raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
+        end = as_pose(pose, "pose of the landing")
+        plane, vertical = self._new_plane(t, end, land), self._new_vertical(t, end, land)
+        return replace(self, end=end, land=land, plane=plane, vertical=vertical)
+
+    def _new_plane(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
+        now = tuple(q.at(t) for q in self.plane)
+        goal = _near(_coordinates(end), tuple(s[0] for s in now))
+        plane = tuple(
+            Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
+        )
+        before = self.plane[0].end
+        if t < before < land and _overshoots(plane[0], plane[1]):
+            ends = zip(now, goal, strict=True)
+            plane = tuple(Quintic.between(t, before, s, (g, 0.0, 0.0)) for s, g in ends)
+        return plane
+
+    def _new_vertical(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
+        z0, z1 = float(self.start[2, 3]), float(end[2, 3])
+        piece = self._height(t)
+        now, target = piece.at(t), sum(piece.coefficients)
+        apex, old = self._apex(z0, z1), self._apex(z0, float(self.end[2, 3]))
+        rising = target > min(old - 1e-9, now[0])
+        if len(self.vertical) == 2 and t < piece.end < self.land and rising:
+            top = t + (piece.end - t) * (land - t) / (self.land - t)
+            if target < old - 1e-9:
+                apex = target  # it rises for the second time, as high as it must
+            if apex > target + 1e-9:
+                top = max(top, t + 0.35 * (land - t))
+            return _over(t, now, top, max(apex, target), land, z1)
+        moved = hypot(*(float(end[i, 3] - self.end[i, 3]) for i in (0, 1)))
+        if now[0] < z1 + 0.25 * self.ground_clearance and moved > self.ground_clearance:
+            return _over(t, now, t + 0.4 * (land - t), z1 + self.ground_clearance, land, z1)
+        direct = Quintic.between(t, land, now, (z1, 0.0, 0.0))
+        floor = min(z1, now[0]) - DIP
+        dips = any(direct.at(t + 0.1 * k * (land - t))[0] < floor for k in range(1, 10))
+        if not (dips and t < piece.end < land):
+            return (direct,)
+        # Ending the old descent higher is the old descent plus a rising quintic: never lower.
+        share = (land - piece.end) / (land - t)
+        wait = target
+        if piece.end >= self.land:
+            wait = max(target, z1) + 0.5 * share * share * max(0.0, now[0] - max(target, z1))
+        return _over(t, now, piece.end, wait, land, z1)
+
+
+def _overshoots(x: Quintic, y: Quintic) -> bool:
+    """Return whether a planar path goes more than 1 % of its way beyond its end."""
+    x1, y1 = sum(x.coefficients), sum(y.coefficients)
+    dx, dy = x1 - x.coefficients[0], y1 - y.coefficients[0]
+    times = [x.start + 0.1 * k * (x.end - x.start) for k in range(1, 10)]
+    beyond = max((x.at(t)[0] - x1) * dx + (y.at(t)[0] - y1) * dy for t in times)
+    return beyond > 0.01 * (dx * dx + dy * dy)
+
+
+def _over(
+    t: float, now: State, middle: float, height: float, land: float, z1: float
+) -> tuple[Quintic, Quintic]:
+    """Return the two quintics that rest at `height` at time `middle` and at z1 at time `land`."""
+    rest, last = (height, 0.0, 0.0), (z1, 0.0, 0.0)
+    return Quintic.between(t, middle, now, rest), Quintic.between(middle, land, rest, last)
+
+
+def swing_of(
+    plan: FootstepPlan,
+    step: Footstep,
+    swing_height: float = 0.05,
+    ground_clearance: float = 0.02,
+) -> Swing:
+    """Return the swing of one step of a plan, from where its foot stands; see `Swing`."""
+    return Swing(
+        plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
+    )
+
+
+def _coordinates(pose: Array) -> tuple[float, ...]:
+    roll, pitch, yaw = rpy_of(pose)
+    return float(pose[0, 3]), float(pose[1, 3]), yaw, pitch, roll
+
+
+def _near(goal: Sequence[float], now: Sequence[float]) -> tuple[float, ...]:
+    """Return the goal with its yaw on the same turn as the present one."""
+    x, y, yaw, pitch, roll = goal
+    return x, y, now[2] + wrap(yaw - now[2]), pitch, roll

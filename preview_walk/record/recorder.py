@@ -1,0 +1,86 @@
+"""The recorder: takes a row per tick inside the loop and gives the record at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from platform import python_version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from preview_walk.record.fields import FIELDS
+from preview_walk.record.plan_log import PlanWriter
+from preview_walk.record.record import Record
+
+if TYPE_CHECKING:
+    from preview_walk.footsteps.plan import FootstepPlan
+
+
+class Recorder:
+    """Growing arrays for the fields of a record.
+
+    `sizes` gives nq, nv and nu; `capacity` is the number of ticks to make room for at first (it
+    doubles when full); `settings` are those of `Record` that are known before the run.
+    """
+
+    def __init__(
+        self, settings: Mapping[str, Any], sizes: Mapping[str, int], capacity: int = 4096
+    ) -> None:
+        self._settings = dict(settings)
+        self._plans = PlanWriter()
+        self._plan: FootstepPlan | None = None
+        self._n = 0
+        self._arrays: dict[str, NDArray[Any]] = {}
+        for name, info in FIELDS.items():
+            shape = (capacity, *(sizes[k] if isinstance(k, str) else k for k in info.shape))
+            # What is never written shows: nan, or -1 where there is no nan.
+            empty = np.nan if info.dtype is np.float64 else -1
+            self._arrays[name] = np.full(shape, empty, dtype=info.dtype)
+
+    def __len__(self) -> int:
+        return self._n
+
+    def write(self, **values: Any) -> None:
+        """Store the values of one tick by field name (6 to 10 microseconds for all of them).
+
+        Values are copied. A tick interrupted half way is not counted: a record has whole rows.
+        """
+        i = self._n
+        arrays = self._arrays
+        if i == len(arrays["time"]):
+            self._grow()
+        for name, value in values.items():
+            arrays[name][i] = value
+        self._n = i + 1
+
+    def plan(self, time: float, plan: FootstepPlan) -> None:
+        """Note the plan in force from `time` (s); free when it is the one already noted."""
+        if plan is not self._plan:
+            self._plan = plan
+            self._plans.write(time, plan)
+
+    def finish(self, **settings: Any) -> Record:
+        """Return the record of the ticks so far, with these settings added (fell, wall_time...)."""
+        arrays = {name: array[: self._n] for name, array in self._arrays.items()}
+        return Record(**arrays, plans=self._plans.finish(), settings={**self._settings, **settings})
+
+    def _grow(self) -> None:
+        for name, array in self._arrays.items():
+            empty = np.nan if array.dtype == np.float64 else -1
+            self._arrays[name] = np.concatenate([array, np.full_like(array, empty)])
+
+
+_PACKAGES = ("preview-walk", "mujoco", "pin", "osqp", "qpsolvers", "control", "numpy", "scipy")
+
+
+def package_versions() -> dict[str, str]:
+    """Return the versions of Python and of the packages that a walk depends on."""
+    versions = {"python": python_version()}
+    for name in _PACKAGES:
+        try:
+            versions[name] = version(name)
+        except PackageNotFoundError:
+            versions[name] = "not installed"
+    return versions

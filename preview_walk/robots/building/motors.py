@@ -1,0 +1,80 @@
+"""Torque limits of joints: what the model's actuators, of whatever kind, can push with."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from preview_walk.errors import RobotError
+from preview_walk.robots.finding.tree import Tree
+
+ASSUMED = 3.0
+"""Torque (N·m, or N for a slide) per kg of robot assumed for a motor without a limit."""
+
+_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+
+
+def joint_efforts(tree: Tree, implied: bool, mass: float) -> tuple[dict[int, float], list[str]]:
+    """Return the largest torque (N·m) of every joint with a motor, by joint id, and remarks.
+
+    `implied` says that every joint has a motor even without an actuator, as in a URDF. A motor
+    without a force limit gets `ASSUMED` times the robot's mass (kg).
+
+    Raises `RobotError` where the model has no motors at all.
+    """
+    mj = tree.mj
+    push: dict[int, tuple[float, float]] = {}
+    replaced = 0
+    for actuator in range(mj.nu):
+        if int(mj.actuator_trntype[actuator]) not in _JOINT:
+            continue
+        joint = int(mj.actuator_trnid[actuator, 0])
+        low, high, torque = _range(mj, actuator)
+        replaced += not torque
+        before = push.get(joint, (0.0, 0.0))
+        push[joint] = (before[0] + low, before[1] + high)
+    moving = [j for j in tree.joints_on(list(range(1, mj.nbody)))]
+    if mj.nu == 0:
+        push = {j: (-np.inf, np.inf) for j in moving if implied or mj.jnt_actfrclimited[j]}
+    if not push:
+        raise RobotError(
+            "the model has no motors: expected an actuator, or an effort limit, for every joint"
+        )
+    efforts, assumed = {}, []
+    for joint, (low, high) in push.items():
+        if mj.jnt_actfrclimited[joint]:
+            low = max(low, float(mj.jnt_actfrcrange[joint, 0]))
+            high = min(high, float(mj.jnt_actfrcrange[joint, 1]))
+        effort = min(-low, high)
+        if not effort < np.inf:
+            effort = ASSUMED * mass
+            assumed.append(tree.joint_name(joint))
+        efforts[joint] = max(0.0, effort)
+    notes = []
+    if replaced:
+        notes.append(f"{replaced} position, velocity or other actuators became torque motors")
+    if assumed:
+        notes.append(
+            f"no torque limit: {ASSUMED * mass:.0f} N·m ({ASSUMED:g} N·m per kg) assumed for "
+            + ", ".join(assumed)
+        )
+    return efforts, notes
+
+
+def _range(mj: mujoco.MjModel, actuator: int) -> tuple[float, float, bool]:
+    """Return the least and largest joint torque of an actuator, and whether it is a plain motor."""
+    gear = float(mj.actuator_gear[actuator, 0])
+    motor = (
+        int(mj.actuator_gaintype[actuator]) == int(mujoco.mjtGain.mjGAIN_FIXED)
+        and int(mj.actuator_biastype[actuator]) == int(mujoco.mjtBias.mjBIAS_NONE)
+        and int(mj.actuator_dyntype[actuator]) == int(mujoco.mjtDyn.mjDYN_NONE)
+    )
+    low, high = -np.inf, np.inf
+    if motor and mj.actuator_ctrllimited[actuator]:
+        gain = float(mj.actuator_gainprm[actuator, 0])
+        low, high = sorted(gain * mj.actuator_ctrlrange[actuator])
+    if mj.actuator_forcelimited[actuator]:
+        low = max(low, float(mj.actuator_forcerange[actuator, 0]))
+        high = min(high, float(mj.actuator_forcerange[actuator, 1]))
+    low, high = sorted((gear * low, gear * high)) if gear else (0.0, 0.0)
+    return low, high, motor

@@ -1,0 +1,121 @@
+"""Put the visual or collision shapes of a URDF on the bodies of a spec."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import mujoco
+import numpy as np
+
+from preview_walk.robots.reading.meshes import GREY, add_piece, mesh_file, read_mesh
+from preview_walk.robots.reading.urdf import Element, Urdf, number, origin, quaternion, vector
+from preview_walk.types import Array
+
+BONE = 0.025
+"""Radius (m) of the bones that stand for missing shapes."""
+
+VISUAL_GROUP = 2
+"""MuJoCo geom group of what is only looked at."""
+
+
+def add_shapes(
+    urdf: Urdf, spec: mujoco.MjSpec, kind: str, links: Collection[str] | None = None
+) -> list[str]:
+    """Add the shapes of `kind` ("visual" or "collision") of some or all links to a spec's bodies.
+
+    They touch nothing and weigh nothing. Returns the addresses of meshes that are missing or that
+    could not be read.
+    """
+    materials = {
+        str(material.get("name")): rgba
+        for material in urdf.robot.iter("material")
+        if (rgba := _rgba(material)) is not None
+    }
+    missing: list[str] = []
+    for link in urdf.robot.findall("link"):
+        body = spec.body(str(link.get("name")))
+        if body is None or (links is not None and body.name not in links):
+            continue
+        for element in link.findall(kind):
+            material = element.find("material")
+            colour = None
+            if material is not None:
+                colour = _rgba(material) or materials.get(str(material.get("name")))
+            geometry = element.find("geometry")
+            shape = next(iter(geometry), None) if geometry is not None else None
+            if shape is not None:
+                _add_shape(urdf, spec, body, element, shape, colour, missing)
+    return missing
+
+
+def _add_shape(
+    urdf: Urdf,
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    element: Element,
+    shape: Element,
+    colour: tuple[float, ...] | None,
+    missing: list[str],
+) -> None:
+    """Add one visual or collision element to a body."""
+    position, rotation = origin(element)
+    quat = quaternion(rotation)
+    if shape.tag == "mesh":
+        filename = str(shape.get("filename"))
+        file = mesh_file(filename, urdf.path)
+        scale = vector(shape, "scale", (1.0, 1.0, 1.0))
+        pieces = [] if file is None else read_mesh(file)
+        if not pieces:
+            missing.append(filename)
+        for number_, piece in enumerate(pieces):
+            name = f"{filename}:{number_}:{scale}"
+            geom = add_piece(spec, body, name, piece, scale)
+            if geom is not None:
+                finish(geom, position, quat, piece.rgba or colour or GREY)
+        return
+    kinds = {
+        "box": mujoco.mjtGeom.mjGEOM_BOX,
+        "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+        "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+        "capsule": mujoco.mjtGeom.mjGEOM_CAPSULE,
+    }
+    if shape.tag not in kinds:
+        return
+    if shape.tag == "box":
+        size = vector(shape, "size", (0.0, 0.0, 0.0)) / 2
+    else:
+        size = np.array((number(shape, "radius"), number(shape, "length") / 2, 0.0))
+    if size[0] > 0.0:
+        finish(body.add_geom(type=kinds[shape.tag], size=size), position, quat, colour or GREY)
+
+
+def add_bones(spec: mujoco.MjSpec) -> None:
+    """Draw a robot without shapes: a bone from every body to those that hang on it."""
+    for body in spec.bodies[1:]:
+        for child in body.bodies:
+            length = float(np.linalg.norm(child.pos))
+            if length > 2 * BONE:
+                bone = body.add_geom(
+                    type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+                    fromto=(0.0, 0.0, 0.0, *child.pos),
+                    size=(BONE, 0.0, 0.0),
+                )
+                bone.rgba, bone.mass, bone.contype, bone.conaffinity = GREY, 0.0, 0, 0
+        ball = body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(1.4 * BONE, 0.0, 0.0))
+        finish(ball, np.zeros(3), np.array((1.0, 0.0, 0.0, 0.0)), (0.45, 0.5, 0.6, 1.0))
+
+
+def finish(
+    geom: mujoco.MjsGeom, position: Array, quat: Array, colour: tuple[float, ...] | Array
+) -> None:
+    """Place and colour a geom that is only looked at."""
+    geom.pos, geom.quat, geom.rgba = position, quat, colour
+    geom.mass, geom.contype, geom.conaffinity, geom.group = 0.0, 0, 0, VISUAL_GROUP
+
+
+def _rgba(material: Element) -> tuple[float, ...] | None:
+    """Return the colour of a URDF material, None where it names one or only a texture."""
+    colour = material.find("color")
+    if colour is None or colour.get("rgba") is None:
+        return None
+    return tuple(vector(colour, "rgba", GREY))

@@ -1,0 +1,81 @@
+"""Where a robot comes from: a URDF, an MJCF file or a compiled MuJoCo model, read as a tree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import mujoco
+
+from preview_walk.errors import RobotError
+from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.reading.description import Description, model_path
+from preview_walk.robots.reading.mjcf import compile_spec, read_mjcf
+from preview_walk.robots.reading.shapes import add_shapes
+from preview_walk.robots.reading.urdf import Urdf, read_urdf
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A model read: its tree, the URDF it came from (if any) and remarks."""
+
+    tree: Tree
+    urdf: Urdf | None
+    notes: tuple[str, ...]
+
+    @property
+    def speed(self) -> Mapping[str, float]:
+        """Speed limits (rad/s) by joint name; MJCF has none."""
+        return {} if self.urdf is None else self.urdf.speed
+
+
+def read_source(model: Description | mujoco.MjModel) -> Source:
+    """Return the model that a description names, or a model in hand, as a tree.
+
+    Raises `RobotError` for files that cannot be read or compiled.
+    """
+    if isinstance(model, mujoco.MjModel):
+        return Source(Tree(model), None, ())
+    path = model_path(model.model)
+    if not path.is_file():
+        raise RobotError(f"the model file '{path}' does not exist")
+    if path.suffix.lower() != ".urdf" and "<robot" not in path.read_text(errors="replace"):
+        mj, notes = read_mjcf(path)
+        return Source(Tree(mj), None, notes)
+    urdf = read_urdf(path)
+    mj, _ = compile_spec(urdf.spec, f"'{path}'")
+    notes = tuple(f"{flaw}: {', '.join(links)}" for flaw, links in urdf.flaws.items())
+    return Source(Tree(mj), urdf, notes)
+
+
+def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
+    """Return a tree with the shapes of a foot, and remarks.
+
+    A URDF is read without shapes, because only the feet's matter: its collision shapes, else its
+    visual ones.
+    """
+    if source.urdf is None:
+        return source.tree, []
+    tree, lost = source.tree, []
+    links = {tree.name(part) for part in tree.rigid_part(body)}
+    for kind in ("collision", "visual"):
+        spec = source.urdf.spec.copy()
+        missing = add_shapes(source.urdf, spec, kind, links)
+        shaped = Tree(compile_spec(spec, f"'{source.urdf.path}'")[0])
+        if shaped.mj.ngeom:
+            notes = (
+                []
+                if kind == "collision"
+                else [
+                    f"the sole of '{tree.name(body)}' is found from its visual mesh, "
+                    "as it has no collision shape"
+                ]
+            )
+            return shaped, notes
+        lost += missing
+    if lost:
+        raise RobotError(
+            f"the foot '{tree.name(body)}' needs the mesh '{lost[0]}', which is not found or not "
+            "readable; expected the file, or a description that gives the sole's size and centre"
+        )
+    return tree, []

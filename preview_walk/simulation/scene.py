@@ -1,0 +1,182 @@
+"""The user's own MuJoCo model and data, sensed and driven as a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import mujoco
+import numpy as np
+
+from preview_walk.constants import GRAVITY
+from preview_walk.errors import RobotError
+from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.robot import Robot
+from preview_walk.robots.state import to_mujoco, to_pinocchio
+from preview_walk.types import FEET, Array, Foot
+
+_FREE, _PLANE = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtGeom.mjGEOM_PLANE)
+_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+_CLAMP = int(mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL)
+
+
+class OwnModel:
+    """A robot in a MuJoCo model that somebody else made, with whatever else is in the scene.
+
+    - `q` (nq,), `v` (nv,): the measured state in Pinocchio's conventions, seen from the floor.
+    - `wrench[foot]` (6,): what `foot` feels of the ground, [force; moment about the world's origin]
+      on the robot in world axes, summed over MuJoCo's contacts (N, N·m).
+    - `floor`: height (m) of the floor; `friction` between it and the feet.
+
+    Torques reach the joints through the model's own actuators: motors, or position and velocity
+    servos, whose set point is chosen at every physics step such that they give the torque asked
+    for. Joint springs are made up for.
+
+    Raises `RobotError` where the model has no floor, another gravity, or actuators or a base that
+    cannot be driven so.
+    """
+
+    def __init__(self, robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.model, self.data = model, data
+        tree, base = Tree(model), robot.blueprint.parts.base
+        root = int(model.body_jntadr[base])
+        if root < 0 or int(model.jnt_type[root]) != _FREE:
+            raise RobotError(f"the base '{tree.name(base)}' must have a free joint to walk with")
+        if not np.allclose(model.opt.gravity, (0.0, 0.0, -GRAVITY)):
+            raise RobotError(
+                f"gravity must be (0, 0, -{GRAVITY}) m/s^2, got {model.opt.gravity.tolist()}"
+            )
+        ids = {tree.joint_name(joint): joint for joint in range(model.njnt)}
+        joints = np.array([ids[name] for name in robot.joint_names])
+        first, dof = int(model.jnt_qposadr[root]), int(model.jnt_dofadr[root])
+        self._qpos = np.concatenate([np.arange(first, first + 7), model.jnt_qposadr[joints]])
+        self._qvel = np.concatenate([np.arange(dof, dof + 6), model.jnt_dofadr[joints]])
+        self._feet = _parts(robot, tree)
+        self.floor, self.friction = _floor(tree, self._feet)
+        self._gain, self._actuator = _actuators(tree, joints)
+        self._driven = self._actuator >= 0
+        self.q: Array = np.array(robot.posture)
+        self.v: Array = np.zeros(robot.pin.nv)
+        self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
+
+    def place(self, q: Array) -> None:
+        """Stand the robot still in configuration q (nq,)."""
+        qpos, qvel = np.empty_like(q), np.zeros(len(self._qvel))
+        to_mujoco(q, qvel, qpos, qvel)
+        qpos[2] += self.floor
+        self.data.qpos[self._qpos], self.data.qvel[self._qvel] = qpos, qvel
+        mujoco.mj_forward(self.model, self.data)
+
+    def sense(self) -> None:
+        """Read the state and the contacts into `q`, `v` and `wrench`."""
+        to_pinocchio(self.data.qpos[self._qpos], self.data.qvel[self._qvel], self.q, self.v)
+        self.q[2] -= self.floor
+        for wrench in self.wrench.values():
+            wrench[:] = 0.0
+        felt = np.empty(6)
+        for index, contact in enumerate(self.data.contact):
+            for geom, sign in ((int(contact.geom[0]), -1.0), (int(contact.geom[1]), 1.0)):
+                foot = self._feet.get(geom)
+                if foot is None:
+                    continue
+                mujoco.mj_contactForce(self.model, self.data, index, felt)
+                # MuJoCo gives what the first geom does to the second, in the contact's axes.
+                axes = sign * contact.frame.reshape(3, 3)
+                force = felt[:3] @ axes
+                self.wrench[foot][:3] += force
+                self.wrench[foot][3:] += np.cross(contact.pos, force) + felt[3:] @ axes
+
+    def step(self, torques: Array, steps: int) -> None:
+        """Hold the joint torques (n,) in N·m for a number of physics steps."""
+        model, data = self.model, self.data
+        gear, gain, offset, pull, brake = self._gain
+        dofs, places = self._qvel[6:], self._qpos[7:]
+        servos = bool((pull != 0.0).any() or (brake != 0.0).any())
+        flags = int(model.opt.disableflags)
+        if servos:  # a servo's set point may lie where the joint may not
+            model.opt.disableflags = flags | _CLAMP
+        for _ in range(steps):
+            force = (torques - data.qfrc_spring[dofs]) / gear - offset
+            force -= pull * gear * data.qpos[places] + brake * gear * data.qvel[dofs]
+            data.ctrl[self._actuator[self._driven]] = (force / gain)[self._driven]
+            mujoco.mj_step(model, data)
+        model.opt.disableflags = flags
+
+
+def _parts(robot: Robot, tree: Tree) -> dict[int, Foot]:
+    """Return which foot each geom (id) of the feet belongs to."""
+    feet: dict[int, Foot] = {}
+    for foot in FEET:
+        bodies = set(tree.below(robot.blueprint.parts.feet[foot]))
+        for geom in range(tree.mj.ngeom):
+            if int(tree.mj.geom_bodyid[geom]) in bodies:
+                feet[geom] = foot
+    return feet
+
+
+def _floor(tree: Tree, feet: dict[int, Foot]) -> tuple[float, float]:
+    """Return the height (m) of the level plane that the feet touch, and the least friction."""
+    mj = tree.mj
+    for plane in range(mj.ngeom):
+        level = tree.data.geom_xmat[plane][8] > 0.9999
+        if int(mj.geom_type[plane]) != _PLANE or not level or mj.body_weldid[mj.geom_bodyid[plane]]:
+            continue
+        friction = _touching(mj, plane, feet)
+        if {feet[geom] for geom in friction} == set(FEET):
+            return float(tree.data.geom_xpos[plane][2]), min(friction.values())
+    raise RobotError("the model has no floor: expected a level plane that both feet can touch")
+
+
+def _touching(mj: mujoco.MjModel, plane: int, feet: Collection[int]) -> dict[int, float]:
+    """Return the friction between a plane and those geoms of the feet that can touch it."""
+    kinds, answers = mj.geom_contype, mj.geom_conaffinity
+    slide = mj.geom_friction[:, 0]
+    friction = {
+        geom: float(max(slide[plane], slide[geom]))
+        for geom in feet
+        if kinds[plane] & answers[geom] or kinds[geom] & answers[plane]
+    }
+    for pair in range(mj.npair):  # contacts declared one by one
+        ends = {int(mj.pair_geom1[pair]), int(mj.pair_geom2[pair])}
+        for geom in ends & set(feet):
+            if plane in ends:
+                friction[geom] = float(mj.pair_friction[pair, 0])
+    return friction
+
+
+def _actuators(tree: Tree, joints: Array) -> tuple[Array, Array]:
+    """Return gear, gain and the three bias terms (5, n) of the joints' actuators, and their ids.
+
+    The id is -1 for a joint that has none. An actuator's force, times gear its torque, is
+    gain x control + bias[0] + bias[1] x position + bias[2] x velocity.
+    """
+    mj = tree.mj
+    terms = np.zeros((5, len(joints)))
+    terms[:2] = 1.0
+    ids = np.full(len(joints), -1)
+    place = {int(joint): at for at, joint in enumerate(joints)}
+    for actuator in range(mj.nu):
+        at = place.get(int(mj.actuator_trnid[actuator, 0]))
+        if at is None or int(mj.actuator_trntype[actuator]) not in _JOINT:
+            continue
+        name = str(mj.actuator(actuator).name) or f"actuator_{actuator}"
+        if ids[at] >= 0:
+            raise RobotError(
+                f"the joint '{tree.joint_name(int(joints[at]))}' has two actuators; expected one"
+            )
+        affine = int(mj.actuator_biastype[actuator]) == int(mujoco.mjtBias.mjBIAS_AFFINE)
+        simple = (
+            (affine or int(mj.actuator_biastype[actuator]) == int(mujoco.mjtBias.mjBIAS_NONE))
+            and int(mj.actuator_gaintype[actuator]) == int(mujoco.mjtGain.mjGAIN_FIXED)
+            and int(mj.actuator_dyntype[actuator]) == int(mujoco.mjtDyn.mjDYN_NONE)
+            and mj.actuator_gainprm[actuator, 0] * mj.actuator_gear[actuator, 0] != 0.0
+        )
+        if not simple:
+            raise RobotError(
+                f"the actuator '{name}' cannot give a torque at once; "
+                "expected a motor, or a position or velocity servo"
+            )
+        terms[:2, at] = mj.actuator_gear[actuator, 0], mj.actuator_gainprm[actuator, 0]
+        if affine:
+            terms[2:, at] = mj.actuator_biasprm[actuator, :3]
+        ids[at] = actuator
+    return terms, ids

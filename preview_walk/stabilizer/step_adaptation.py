@@ -1,0 +1,244 @@
+"""Step adaptation: where and when the swing foot lands so that a pushed walker can go on.
+
+The divergent component of motion (DCM) xi = c + c' / omega runs away from the ZMP p:
+xi' = omega (xi - p) (Takenaka 2009; Englsberger, Ott and Albu-Schaeffer 2015, eq. 6). Over the
+rest of a step, with the ZMP moved by a constant delta from where the plan has it, the error e of
+the DCM grows by tau = exp(omega T) to
+
+    e(T) = e tau - delta (tau - 1)
+
+While the sole leaves room for the delta that brings e(T) to zero the plan is kept. Otherwise the
+landing moves, by place and by time (Khadiv et al. 2020; Griffin et al. 2017): among landing times
+within the limits, the one is taken whose foothold leaves the next step the DCM nearest to the
+plan's offset from its foot, then nearest to the plan; delta then counts from the stance sole's
+centre. Each time is a small convex problem an axis (foothold, delta, and the offset that the next
+step takes up) in a box; all times are solved at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+
+from preview_walk.footsteps.footstep import Footstep
+from preview_walk.footsteps.limits import GaitLimits
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.geometry.poses import compose, heading_of, pose_at
+from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE, landed_at
+from preview_walk.types import Array, Foot, other
+
+TIMES = 40
+"""Landing times that are compared."""
+
+OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT = 100.0, 1.0, 0.2, 0.05, 2.0
+"""Squared metres of DCM offset, of foothold, squared seconds of landing time, squared metres of
+ZMP, and of the offset that the ZMP of the next step can carry: the rest of the offset comes first.
+"""
+
+KEEP_WEIGHT, KEEP_TIME = 2.0, 2.0
+"""Squared metres and seconds by which a changed step changes again: the foot cannot dither."""
+
+CARRY = 0.4
+"""Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
+
+SPEED_SHARE, PULL_SHARE = (0.53, 0.07), (0.173, 0.45)
+"""A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its
+top acceleration times that squared; a foot under way gets further by the second shares of its speed
+times the time left."""
+
+CATCH = 0.3
+"""Share that is used of the DCM offset which one more step, as quick as it can be, would catch."""
+
+DROP = 40.0
+"""Acceleration (m/s^2) with which the swing foot may come down."""
+
+TOLERANCE = 0.03
+"""Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
+
+LATEST = 0.08
+"""A landing nearer than this (s) is not changed any more, but for two: at once where it is ..."""
+
+RELIFT = 0.18
+"""... or elsewhere, after the foot has risen again: that takes this long (s) at least."""
+
+SOON = 0.012
+"""A foot that is nearly down can be down within this time (s): the ZMP reaches its sole sooner."""
+
+
+@dataclass(frozen=True)
+class StepLimits:
+    """What a recovery step may be.
+
+    Attributes:
+        gait: reach and clearance.
+        omega: natural frequency of the pendulum (1/s).
+        zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
+        swing_time: shortest and longest time in the air (s).
+        swing_speed: top speed (m/s) of the swing foot.
+        swing_pull: top acceleration (m/s^2) of the swing foot.
+        tolerance: error of the DCM (m) at landing that needs no answer.
+    """
+
+    gait: GaitLimits
+    omega: float
+    zmp: tuple[float, float]
+    swing_time: tuple[float, float]
+    swing_speed: float
+    swing_pull: float
+    tolerance: float
+
+
+def adapt_step(
+    plan: FootstepPlan,
+    t: float,
+    dcm: Array,
+    planned: tuple[Array, Array],
+    swing: tuple[Array, Array],
+    nominal: Footstep,
+    limits: StepLimits,
+) -> FootstepPlan | None:
+    """Return the plan whose step in the air answers a DCM error, or None where none is needed.
+
+    Later steps keep their places relative to the changed one and their times after it.
+
+    Args:
+        plan: the walk; some foot must be in the air at t.
+        t: now (s).
+        dcm: (2,) measured DCM in the world (m).
+        planned: the plan's DCM (2,) now and at the middle of the double support after the landing.
+        swing: (3,) position (m) and velocity (m/s) of the swinging sole.
+        nominal: the step as it was commanded, before any change.
+        limits: what a recovery step may be.
+    """
+    step = plan.swing_at(t)
+    if step is None or step.land - t < SOON:
+        return None
+    following = next((s for s in plan.steps if s.lift >= step.land), None)
+    pause = following.lift - step.land if following is not None else plan.settle
+    stance = plan.sole(other(step.foot), t)
+    axes, origin = stance[:2, :2], stance[:2, 3]
+    half = np.array(limits.zmp)
+    growth = exp(limits.omega * (step.land + 0.5 * min(pause, plan.settle) - t))
+    grown = (dcm - planned[0]) @ axes * growth
+    rest = grown - np.clip(grown / (growth - 1.0), -half, half) * (growth - 1.0)
+    if np.abs(rest).max() <= limits.tolerance:
+        return None
+
+    late = step.land - t < LATEST
+    land = _landing_times(t, step, nominal, float(swing[0][2]), limits)
+    here, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
+    box = _reachable(step.foot, here, speed, (land - t)[:, None], limits)
+    wanted = (
+        (nominal.pose[:2, 3] - origin) @ axes,
+        (step.pose[:2, 3] - origin) @ axes,
+        (planned[1] - step.pose[:2, 3]) @ axes,
+    )
+    tau = np.exp(limits.omega * (land + 0.5 * min(pause, SHORT_PAUSE) - t))[:, None]
+    carried = _carried(limits, step.foot, wanted[2])
+    place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, box, carried, half)
+    cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
+    best = int(np.argmin(cost))
+
+    heading = heading_of(stance)
+    turn = heading_of(step.pose)[2] - heading[2]
+    x, y = place[best].tolist()
+    sole = limits.gait.clamp(step.foot, heading, compose(heading, x, y, turn))
+    pose = pose_at(*sole, float(step.pose[2, 3]))
+    if late and best == len(land) - 1:  # down at once; the next step keeps its time
+        later = plan.steps[plan.steps.index(step) + 1 :]
+        return plan.retarget(t, pose, float(land[best])).replace_after(t, later)
+    return landed_at(plan, t, pose, float(land[best]))
+
+
+def _landing_times(
+    t: float, step: Footstep, nominal: Footstep, height: float, limits: StepLimits
+) -> Array:
+    """Return the times (s) at which the foot, at `height` (m), may land; last, the present one.
+
+    Where that is so near that it stays, the last is at once.
+    """
+    height = max(0.0, height - float(step.pose[2, 3]))
+    drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
+    late = step.land - t < LATEST
+    first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
+    last = max(step.lift + limits.swing_time[1], first + LATEST)
+    keep = min(t + max(SOON, drop), step.land) if late else max(step.land, first)
+    return np.append(np.linspace(first, last, TIMES), (max(nominal.land, first), keep))
+
+
+def _reachable(
+    foot: Foot, here: Array, speed: Array, left: Array, limits: StepLimits
+) -> tuple[Array, Array]:
+    """Return the lowest and highest footholds (N, 2), m, in the stance foot's axes.
+
+    The leg reaches them, and the foot, now at `here` (2,) with `speed` (2,), gets there in the time
+    `left` (N, 1), s.
+    """
+    gait, side = limits.gait, 1.0 if foot == "left" else -1.0
+    slow = limits.swing_speed * SPEED_SHARE[0] * left
+    weak = limits.swing_pull * PULL_SHARE[0] * left**2
+    ahead = np.minimum(slow + SPEED_SHARE[1] * speed * left, weak + PULL_SHARE[1] * speed * left)
+    behind = np.minimum(slow - SPEED_SHARE[1] * speed * left, weak - PULL_SHARE[1] * speed * left)
+    low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
+    high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
+    return np.clip(here - behind, low, high), np.clip(here + ahead, low, high)
+
+
+def _footholds(
+    free: Array,
+    lever: Array,
+    wanted: tuple[Array, Array, Array],
+    box: tuple[Array, Array],
+    carried: tuple[Array, Array],
+    half: Array,
+) -> tuple[Array, Array]:
+    """Return the best foothold (N, 2) of each landing time and its cost (N,).
+
+    The DCM lands at free - lever delta = foothold + offset + carry + miss; the miss costs most.
+
+    Args:
+        free: (N, 2) where the DCM is at landing with the ZMP at the stance foot's centre (m).
+        lever: (N, 1) how far a ZMP 1 m from there moves it (m).
+        wanted: (2,) each: the commanded foothold, the present one, and the DCM's offset from it.
+        box: lowest and highest footholds, (N, 2) each.
+        carried: lowest and highest offset that the next step can catch, (2,) each.
+        half: (2,) largest shift of the ZMP.
+    """
+    goal, current, offset = wanted
+    delta, carry = np.zeros_like(free), np.zeros_like(free)
+    w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
+    for _ in range(30):  # coordinate descent: convex, three variables, a box
+        place = np.clip(
+            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
+            *box,
+        )
+        delta = np.clip(
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z), -half, half
+        )
+        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), *carried)
+    miss = free - lever * delta - offset - carry - place
+    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
+    cost += k * ((place - current) ** 2).sum(axis=1)
+    return place, cost
+
+
+def _carried(limits: StepLimits, foot: Foot, offset: Array) -> tuple[Array, Array]:
+    """Return how far (2,) below and above the plan's DCM offset the next step can still catch it.
+
+    The next step brings the DCM back to its foot from offsets up to its reach, shrunk by the growth
+    of the DCM meanwhile, and the sole's half size, by its ZMP; beyond the outer edge it cannot.
+    Axes of the stance foot; `foot` is in the air.
+    """
+    gait, half = limits.gait, np.array(limits.zmp)
+    decay = exp(-limits.omega * (limits.swing_time[0] + SHORT_PAUSE))
+    ankle = (1.0 - decay) * half
+    back, inner = decay * gait.backward + ankle[0], decay * gait.max_width + ankle[1]
+    ahead, outer = decay * gait.forward + ankle[0], ankle[1]
+    # The foot that lands has its inner side where the other one is.
+    low, high = (inner, outer) if foot == "left" else (outer, inner)
+    return (
+        np.minimum(-CATCH * np.array((back, low)) - offset, -CARRY * half),
+        np.maximum(CATCH * np.array((ahead, high)) - offset, CARRY * half),
+    )

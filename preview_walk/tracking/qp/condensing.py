@@ -1,0 +1,179 @@
+"""The tick's QP without its accelerations: exact, and a fifth of the size.
+
+All rows of the QP that bind the accelerations a read `rows @ a = target + map @ w`, each with an
+inverse weight `slack`, where w holds the wrenches f and, for each joint limit that is *watched*,
+the value u that this torque or acceleration takes. For any w the best a follows from
+
+    K = rows D^-1 rows^T + slack = L L^T,    a = prior + D^-1 rows^T K^-1 (residual + map w)
+
+(D: prior weights; residual = target - rows @ prior), and the cost that is left is
+|L^-1 (residual + map w)|^2 / 2 + wrench weight |f|^2 / 2. Only the last rows (base and watched
+limits) have a map, so L's last corner alone makes the Hessian in w. Base rows have no slack: any w,
+even a poor one, comes with accelerations that obey Newton and Euler to machine precision.
+
+Joint limits are rarely reached, so they enter only once they have been: the solution without a
+limit that it obeys is the solution with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg.blas import dtrsm, dtrsv
+from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
+
+from preview_walk.tracking.qp.problem import LIMIT_WEIGHT, TickProblem
+from preview_walk.types import Array
+
+TOLERANCE = 1e-7
+"""Amount (N, N·m, rad/s^2) by which the solution may cross a constraint that it does not know."""
+
+
+class NotSolvable(ArithmeticError):
+    """The values of a problem are not finite, or its rows contradict each other."""
+
+
+class Elimination:
+    """The QP in w = [f; u] of a `TickProblem`, for a fixed list of watched limits.
+
+        minimise |factor^T w|^2 / 2 + gradient @ w  subject to  low <= constraints @ w <= high
+
+    `watched` are columns of `TickProblem.limits`: torques first, then accelerations.
+    `factor` (lower triangular) and `gradient` are valid after `reduce`; `acceleration` (nv,) and
+    `torques` (n,) after `expand`.
+    """
+
+    def __init__(self, problem: TickProblem, watched: Sequence[int]) -> None:
+        self.problem = problem
+        self.watched = tuple(watched)
+        p, k = problem, len(self.watched)
+        self._indices = np.array(self.watched, dtype=int)
+        self.size = p.nf + k
+        self._tail = 6 + k
+        m = p.m + k
+        scale = 1.0 / np.sqrt(p.prior_weight)
+        self._scale = scale
+        self._rows = np.zeros((m, p.nv))
+        self._scaled = np.zeros((m, p.nv))
+        self._residual = np.zeros(m)
+        self._slack = np.zeros(m)
+        self._matrix = np.zeros((m, m))
+        self._diagonal = self._matrix.reshape(-1)[:: m + 1]
+        self._map = np.zeros((self._tail, self.size), order="F")
+        for at, i in enumerate(self.watched):
+            self._map[6 + at, p.nf + at] = 1.0
+            if i >= p.n:
+                self._rows[p.m + at, 6 + i - p.n] = 1.0
+                self._slack[p.m + at] = 1.0 / LIMIT_WEIGHT
+        self.constraints = np.zeros((len(p.contact_rows) + k, self.size))
+        self.constraints[: len(p.contact_rows), : p.nf] = p.contact_rows
+        self.constraints[len(p.contact_rows) :, p.nf :] = np.eye(k)
+        self.low = np.concatenate([p.contact_low, np.zeros(k)])
+        self.high = np.concatenate([p.contact_high, np.zeros(k)])
+        self.factor: Array = np.zeros((self.size, self.size))
+        self.gradient: Array = np.zeros(self.size)
+        self.acceleration: Array = np.zeros(p.nv)
+        self._values: Array = np.zeros(2 * p.n)
+        self.torques = self._values[: p.n]
+        self._excess = np.zeros((2, 2 * p.n))
+
+    def reduce(self) -> None:
+        """Eliminate the accelerations at the problem's current values.
+
+        Raises `NotSolvable` when they are not finite.
+        """
+        p, m = self.problem, self.problem.m
+        rows, residual = self._rows, self._residual
+        rows[:m] = p.rows
+        residual[:m] = p.target
+        self._slack[:m] = p.slack
+        self._map[:6, : p.nf] = p.wrench_map
+        if self.watched:
+            self._reduce_watched()
+        residual -= rows @ p.prior
+        np.multiply(rows, self._scale, out=self._scaled)
+        np.matmul(self._scaled, self._scaled.T, out=self._matrix)
+        self._diagonal += self._slack
+        self._lower = _cholesky(self._matrix)
+        self._solved = dtrsv(self._lower, residual, lower=1)
+        corner = self._lower[-self._tail :, -self._tail :]
+        # Not dtrtrs: OpenBLAS starts threads for it, which wait for each other longer than a tick.
+        self._response = dtrsm(1.0, corner, self._map, lower=1) if self.size else self._map
+        hessian = self._response.T @ self._response
+        hessian.reshape(-1)[: p.nf * self.size : self.size + 1] += p.wrench_weight
+        self.factor = _cholesky(hessian)
+        self.gradient = self._solved[-self._tail :] @ self._response
+        self.high[: len(p.contact_high)] = p.contact_high
+
+    def _reduce_watched(self) -> None:
+        """Write the rows, map and bounds of the watched limits."""
+        p, at = self.problem, self.problem.m
+        for i, limit in enumerate(self.watched):
+            if limit < p.n:
+                dof = 6 + limit
+                self._rows[at + i, :dof] = p.mass[:dof, dof]
+                self._rows[at + i, dof:] = p.mass[dof, dof:]
+                self._residual[at + i] = -p.bias[dof]
+                self._map[6 + i, : p.nf] = p.contact_jacobian[:, dof]
+            else:
+                self._residual[at + i] = 0.0
+        at = len(p.contact_low)
+        self.low[at:], self.high[at:] = p.limits[:, self._indices]
+
+    def free(self) -> Array | None:
+        """Return the minimiser w without constraints, or None when it does not obey them."""
+        if not self.size:
+            return self.gradient
+        w: Array = dpotrs(self.factor, self.gradient, lower=1)[0]
+        np.negative(w, out=w)
+        values = self.constraints @ w
+        if (values <= self.high).all() and (values >= self.low).all():
+            return w
+        if not np.isfinite(values).all():
+            raise NotSolvable("the values of the QP are not finite")
+        return None
+
+    def expand(self, w: Array) -> None:
+        """Recover `acceleration` and `torques` of a solution w."""
+        p = self.problem
+        solved = self._solved.copy()
+        solved[-self._tail :] += self._response @ w
+        multipliers = dtrsv(self._lower, solved, lower=1, trans=1)
+        acceleration = multipliers @ self._scaled
+        acceleration *= self._scale
+        acceleration += p.prior
+        self.acceleration = acceleration
+        self._values[: p.n] = p.forces(acceleration, w[: p.nf])[6:]
+        self._values[p.n :] = acceleration[6:]
+
+    def crossed(self) -> list[int]:
+        """Return the limits that the expanded solution crosses and that are not watched yet.
+
+        Raises `NotSolvable` when the solution is not finite.
+        """
+        excess = np.subtract(self._values, self.problem.limits, out=self._excess)
+        np.negative(excess[0], out=excess[0])
+        worst = excess.max()
+        if worst <= TOLERANCE:
+            return []
+        if not worst < np.inf:
+            raise NotSolvable("the solution is not finite")
+        over = np.flatnonzero(excess.max(axis=0) > TOLERANCE)
+        return [i for i in over.tolist() if i not in self.watched]
+
+
+def inverse_factor(factor: Array) -> Array:
+    """Return the inverse of a lower triangular matrix."""
+    inverse: Array = dtrtri(factor, lower=1)[0]
+    return inverse
+
+
+def _cholesky(matrix: Array) -> Array:
+    """Return the lower Cholesky factor, in the lower triangle, of a symmetric C-ordered matrix."""
+    if not matrix.size:
+        return matrix
+    factor, info = dpotrf(matrix.T, lower=1, clean=1, overwrite_a=1)
+    if info != 0:
+        raise NotSolvable("the rows of the QP are not finite or contradict each other")
+    return np.asarray(factor)

@@ -1,0 +1,4 @@
+"""Seeing a walk: films of records, and a live window on a running walk.
+
+Imports `record`, `robots` and MuJoCo's renderers. Start with `video`, or `window`.
+"""

@@ -1,0 +1,96 @@
+"""Pictures of a recorded walk: the robot in its visual meshes, rendered without a screen."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from preview_walk.geometry.poses import midfeet
+from preview_walk.offscreen import RenderError, off_screen
+from preview_walk.record.record import Record
+from preview_walk.robots.load import visual_model
+from preview_walk.robots.robot import Robot
+from preview_walk.robots.state import to_mujoco
+from preview_walk.types import Array
+
+FPS = 30
+"""Frames per second of a video; it runs in real time."""
+
+SIZE = (720, 1280)
+"""Height and width of a frame (pixels)."""
+
+SWAY = 1.0
+"""The camera follows the mean of the CoM over this time (s) before and after: it does not sway."""
+
+Frame = NDArray[np.uint8]
+
+
+def frames(
+    record: Record, robot: Robot, times: Sequence[float], size: tuple[int, int] = SIZE
+) -> Iterator[Frame]:
+    """Yield a picture (height, width, 3) of the robot at each of `times` (s).
+
+    The recorded configurations are shown, nothing is simulated again. The camera walks along.
+
+    Raises `RenderError` where there is no OpenGL to render with.
+    """
+    model = visual_model(robot)
+    model.vis.global_.offheight, model.vis.global_.offwidth = size
+    if mujoco.__version__.startswith("3."):  # whose floor shows specks of its own shadow
+        model.vis.map.shadowclip = 3.0
+    data = mujoco.MjData(model)
+    camera = mujoco.MjvCamera()
+    camera.distance = 3.2 * robot.com_height
+    camera.elevation = -12.0
+    heading = midfeet(record.left_foot_ref[0], record.right_foot_ref[0])[2]
+    camera.azimuth = np.degrees(heading) + 125.0
+    way = _smooth(record.com, round(SWAY / record.dt))
+    still = np.zeros(model.nv)
+    with off_screen():
+        renderer = mujoco.Renderer(model, *size)
+    with renderer:
+        for time in times:
+            tick = min(int(np.searchsorted(record.time, time)), len(record) - 1)
+            to_mujoco(record.q[tick], still, data.qpos, data.qvel)
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            mujoco.mj_camlight(model, data)
+            camera.lookat[:] = way[tick]
+            renderer.update_scene(data, camera)
+            yield renderer.render()
+
+
+def _smooth(path: Array, ticks: int) -> Array:
+    """Return a path (N, 3) averaged over so many ticks before and after each."""
+    padded = np.pad(path, ((ticks + 1, ticks), (0, 0)), mode="edge")
+    total = padded.cumsum(axis=0)
+    average: Array = (total[2 * ticks + 1 :] - total[: -2 * ticks - 1]) / (2 * ticks + 1)
+    return average
+
+
+def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> Path:
+    """Write an mp4 of a recorded walk in real time and return its path.
+
+    Raises `RenderError` where it cannot be rendered or encoded.
+    """
+    import imageio.v2 as imageio
+
+    target = Path(path)
+    count = max(1, int((record.time[-1] - record.time[0]) * FPS))
+    times = record.time[0] + np.arange(count) / FPS
+    try:
+        writer: Any = imageio.get_writer(
+            target, format="FFMPEG", fps=FPS, codec="libx264", quality=8, macro_block_size=8
+        )
+        with writer:
+            for frame in frames(record, robot, times.tolist()):
+                writer.append_data(frame)
+    except (OSError, ValueError, ImportError) as error:
+        raise RenderError(f"cannot write the video {target}: {error}") from error
+    return target

@@ -1,0 +1,277 @@
+"""The walking lab's controller, in models and data that somebody else made."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+import preview_walk as pw
+from preview_walk.errors import InvalidInput, RobotError
+from preview_walk.lab.walking_controller import WalkingController
+from preview_walk.robots.reading.description import models_folder
+from preview_walk.types import Array
+
+XML = models_folder() / "humanoid-walker.xml"
+History = dict[str, Array]
+
+
+@pytest.fixture
+def spec() -> mujoco.MjSpec:
+    return mujoco.MjSpec.from_file(str(XML))
+
+
+@pytest.fixture(scope="module")
+def lab() -> tuple[WalkingController, History]:
+    """Return the lab's walk: six steps."""
+    model = mujoco.MjModel.from_xml_path(str(XML))
+    controller = WalkingController(model, mujoco.MjData(model))
+    return controller, controller.run_walking(n_steps=6)
+
+
+def assert_followed(history: History, height: float = 0.0) -> None:
+    """Hold a walk to its plan."""
+    assert np.sqrt(np.mean((history["com"] - history["com_ref"]) ** 2, axis=0)).max() < 2e-3
+    assert np.sqrt(np.nanmean((history["zmp"] - history["zmp_ref"]) ** 2, axis=0)).max() < 0.02
+    for foot in ("left_foot", "right_foot"):
+        assert np.abs(history[foot] - history[f"{foot}_ref"]).max() < 8e-3
+        assert history[foot][-1, 2] == pytest.approx(height, abs=5e-3)
+
+
+def walk(spec: mujoco.MjSpec, n_steps: int = 2) -> History:
+    model = spec.compile()
+    controller = WalkingController(model, mujoco.MjData(model))
+    history = controller.run_walking(n_steps)
+    assert controller.fall is None
+    return history
+
+
+def test_the_lab_walks(lab: tuple[WalkingController, History]) -> None:
+    controller, history = lab
+    assert controller.fall is None
+    assert_followed(history)
+    assert history["com"][-1, 0] - history["com"][0, 0] == pytest.approx(0.75, abs=2e-3)
+    assert controller.planner == pw.FootstepPlanner(0.15, 0.1, 0.6)
+
+
+def test_every_entry_has_a_row_per_dt(lab: tuple[WalkingController, History]) -> None:
+    _, history = lab
+    n = len(history["time"])
+    assert history["time"] == pytest.approx(0.01 * np.arange(n))
+    assert {name: values.shape for name, values in history.items()} == {
+        "time": (n,),
+        "com": (n, 3),
+        "zmp": (n, 2),
+        "left_foot": (n, 3),
+        "right_foot": (n, 3),
+        "left_force": (n,),
+        "right_force": (n,),
+        "com_ref": (n, 3),
+        "zmp_ref": (n, 2),
+        "left_foot_ref": (n, 3),
+        "right_foot_ref": (n, 3),
+        "phase": (n,),
+        "torque": (n, 20),
+    }
+
+
+def test_what_is_measured_comes_from_mujoco(lab: tuple[WalkingController, History]) -> None:
+    """The last entry is of the state in which `data` was one tick before its end."""
+    controller, history = lab
+    model, data = controller.model, controller.data
+    mujoco.mj_forward(model, data)
+    assert data.subtree_com[1] == pytest.approx(history["com"][-1], abs=1e-5)
+    for foot in ("left_foot", "right_foot"):
+        assert data.site(foot).xpos == pytest.approx(history[foot][-1], abs=1e-5)
+    weight = 9.81 * float(model.body_mass.sum())
+    assert history["left_force"][-1] + history["right_force"][-1] == pytest.approx(weight, rel=1e-3)
+
+
+def test_the_supports_follow_each_other(lab: tuple[WalkingController, History]) -> None:
+    """A foot in the air carries nothing, but for the moments of lift and landing."""
+    _, history = lab
+    for phase, swinging in ((1, "right_force"), (2, "left_force")):
+        alone = history["phase"] == phase
+        assert alone.sum() == pytest.approx(3 * 48, abs=3)
+        assert np.mean(history[swinging][alone] < 1.0) > 0.95
+
+
+def test_torques_stay_within_the_motors(lab: tuple[WalkingController, History]) -> None:
+    controller, history = lab
+    share = np.abs(history["torque"]).max(axis=0) / controller.robot.effort
+    assert 0.1 < share.max() <= 1.0
+
+
+def test_the_swing_lasts_the_single_support_and_starts_on_the_left(
+    lab: tuple[WalkingController, History],
+) -> None:
+    plan = lab[0].plan
+    assert plan is not None
+    assert [step.foot for step in plan.steps] == ["left", "right"] * 3
+    assert [step.land - step.lift for step in plan.steps] == pytest.approx([0.48] * 6)
+
+
+def test_it_walks_on_from_where_the_robot_stands(spec: mujoco.MjSpec) -> None:
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:7] = 4.0, -2.0, 0.93, np.cos(1.0), 0.0, 0.0, np.sin(1.0)
+    controller = WalkingController(model, data)
+    first = controller.run_walking(2)
+    second = controller.run_walking(2)
+    assert_followed(first)
+    assert_followed(second)
+    way = second["com"][-1, :2] - first["com"][0, :2]
+    assert way == pytest.approx((0.3 * np.cos(2.0), 0.3 * np.sin(2.0)), abs=5e-3)
+    assert data.time == pytest.approx(first["time"][-1] + second["time"][-1], abs=0.01)
+
+
+def test_the_model_is_not_changed(spec: mujoco.MjSpec) -> None:
+    for motor in spec.actuators:
+        motor.set_to_position(kp=200.0)
+        motor.forcerange, motor.ctrlrange = motor.ctrlrange, (0.0, 0.0)
+        motor.forcelimited, motor.ctrllimited = 1, 0
+    model, untouched = spec.compile(), spec.compile()
+    WalkingController(model, mujoco.MjData(model)).run_walking(1)
+    assert model.opt.disableflags == untouched.opt.disableflags
+    assert model.opt.timestep == untouched.opt.timestep
+    assert np.array_equal(model.actuator_gainprm, untouched.actuator_gainprm)
+
+
+def test_a_com_height_and_a_gait_of_ones_own(spec: mujoco.MjSpec) -> None:
+    model = spec.compile()
+    controller = WalkingController(model, mujoco.MjData(model), com_height=0.78)
+    controller.planner = pw.FootstepPlanner(0.2, 0.14, 0.7)
+    history = controller.run_walking(3, dt=0.004)
+    assert_followed(history)
+    assert history["com"][:, 2].mean() == pytest.approx(0.78, abs=2e-3)
+    assert history["left_foot"][0, 1] - history["right_foot"][0, 1] == pytest.approx(0.14, abs=1e-3)
+    assert np.diff(history["time"]) == pytest.approx(0.004)
+
+
+def servos(spec: mujoco.MjSpec) -> None:
+    for motor in spec.actuators:
+        limit = tuple(motor.ctrlrange)
+        motor.set_to_position(kp=150.0)
+        motor.forcerange, motor.forcelimited = limit, 1
+        motor.ctrlrange = (-0.5, 0.5)
+
+
+def gears(spec: mujoco.MjSpec) -> None:
+    for motor in spec.actuators:
+        motor.gear[0] = -motor.ctrlrange[1]
+        motor.ctrlrange = (-1.0, 1.0)
+
+
+def springs(spec: mujoco.MjSpec) -> None:
+    for joint in spec.joints[1:]:
+        joint.stiffness = (20.0, 0.0, 0.0)
+
+
+def higher_floor(spec: mujoco.MjSpec) -> None:
+    spec.geom("floor").pos = (0.0, 0.0, 0.3)
+
+
+def furniture(spec: mujoco.MjSpec) -> None:
+    """Put a ball on the floor, before the robot in the state's order."""
+    ball = spec.worldbody.add_body(name="ball", pos=(2.0, 0.0, 0.1))
+    ball.add_freejoint()
+    ball.add_geom(size=(0.1, 0.0, 0.0), contype=3, conaffinity=3, mass=1.0)
+
+
+def contact_pairs(spec: mujoco.MjSpec) -> None:
+    """Let the soles touch the floor by explicit pairs alone."""
+    for foot in ("left_foot", "right_foot"):
+        spec.geom(foot).contype = 0
+        spec.add_pair(geomname1=foot, geomname2="floor", friction=(0.6, 0.6, 0.005, 1e-4, 1e-4))
+
+
+def slow_physics(spec: mujoco.MjSpec) -> None:
+    spec.option.timestep = 0.005
+    spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_PYRAMIDAL, 1.0
+
+
+@pytest.mark.parametrize(
+    "change", [servos, gears, springs, higher_floor, furniture, contact_pairs, slow_physics]
+)
+def test_models_that_are_made_otherwise(
+    spec: mujoco.MjSpec, change: Callable[[mujoco.MjSpec], None]
+) -> None:
+    change(spec)
+    assert_followed(walk(spec), 0.3 if change is higher_floor else 0.0)
+
+
+def test_soles_too_wide_for_the_labs_steps_are_set_further_apart(spec: mujoco.MjSpec) -> None:
+    for foot in ("left_foot", "right_foot"):
+        spec.geom(foot).size[1] = 0.06
+    model = spec.compile()
+    controller = WalkingController(model, mujoco.MjData(model))
+    assert controller.planner.step_width == controller.robot.step_width > 0.12
+
+
+def test_a_push_that_fells_it_is_told(spec: mujoco.MjSpec) -> None:
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    controller = WalkingController(model, data)
+    data.body("torso").xfrc_applied[1] = 400.0
+    with pytest.warns(UserWarning, match=r"^fell after \d\.\d\d s: the CoM sank to "):
+        history = controller.run_walking(2)
+    assert controller.fall is not None
+    assert history["time"][-1] <= controller.fall[0] < 4.0
+
+
+@pytest.mark.parametrize(
+    ("spoil", "sentence"),
+    [
+        (
+            lambda spec: spec.delete(spec.geom("floor")),
+            "the model has no floor: expected a level plane that both feet can touch",
+        ),
+        (
+            lambda spec: setattr(spec.option, "gravity", (0.0, 0.0, -1.62)),
+            "gravity must be (0, 0, -9.81) m/s^2, got [0.0, 0.0, -1.62]",
+        ),
+        (
+            lambda spec: spec.delete(spec.joint("root")),
+            "the base 'pelvis' must have a free joint to walk with",
+        ),
+        (
+            lambda spec: setattr(spec.actuators[3], "dyntype", mujoco.mjtDyn.mjDYN_INTEGRATOR),
+            "the actuator 'left_knee' cannot give a torque at once; "
+            "expected a motor, or a position or velocity servo",
+        ),
+        (
+            lambda spec: spec.add_actuator(
+                target="left_knee", trntype=mujoco.mjtTrn.mjTRN_JOINT
+            ).set_to_motor(),
+            "the joint 'left_knee' has two actuators; expected one",
+        ),
+    ],
+)
+def test_models_that_cannot_walk(
+    spec: mujoco.MjSpec, spoil: Callable[[mujoco.MjSpec], object], sentence: str
+) -> None:
+    if "free joint" in sentence:
+        spec.delete(spec.keys[0])
+    spoil(spec)
+    model = spec.compile()
+    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
+        WalkingController(model, mujoco.MjData(model))
+
+
+def test_an_interval_between_physics_steps_is_refused(spec: mujoco.MjSpec) -> None:
+    model = spec.compile()
+    controller = WalkingController(model, mujoco.MjData(model))
+    for dt in (0.003, 0.0, -0.01, np.nan):
+        sentence = f"dt must be a positive multiple of the model's timestep of 0.002 s, got {dt}."
+        with pytest.raises(InvalidInput, match=f"^{re.escape(sentence)}$"):
+            controller.run_walking(6, dt)
+
+
+def test_it_does_not_warn_when_it_walks(spec: mujoco.MjSpec) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        walk(spec, 0)

@@ -1,0 +1,129 @@
+"""Pushes in simulation: none, walking, standing."""
+
+from __future__ import annotations
+
+from math import cos, radians, sin
+
+import numpy as np
+import pytest
+
+import preview_walk as pw
+from preview_walk.errors import InvalidInput
+from preview_walk.robots.robot import Robot
+from preview_walk.stabilizer.step_adaptation import LATEST, RELIFT
+
+
+@pytest.fixture(scope="module")
+def talos() -> Robot:
+    return pw.load_robot("talos")
+
+
+def pushed(robot: Robot, share: float | None, angle: float, impulse: float) -> pw.Walk:
+    """Return a walk pushed while the left foot stands (share of single support), or standing."""
+    planner = pw.FootstepPlanner(0.2, robot.step_width, 0.9, 0.2 / 0.9)
+    plan = planner.generate_footsteps(6 if share is not None else 0)
+    t = 0.3
+    if share is not None:
+        step = next(s for s in plan.steps if s.foot == "right")
+        t = step.lift + share * (step.land - step.lift)
+    force = impulse / 0.2
+    along = (force * cos(radians(angle)), force * sin(radians(angle)), 0.0)
+    walk = pw.Walk(robot, plan, pushes=[pw.Push(t, 0.2, along)])
+    return walk.run(until=t + 3.5)
+
+
+def test_without_a_push_the_plan_stays(talos: Robot):
+    plan = pw.FootstepPlanner(0.25, talos.step_width).generate_footsteps(3)
+    walk = pw.Walk(talos, plan).run(until=plan.end)
+    assert not walk.fallen
+    assert walk.plan is plan
+
+
+@pytest.mark.parametrize(
+    ("share", "angle", "impulse"),
+    [
+        (0.5, 0.0, 55.0),
+        (0.3, -90.0, 40.0),
+        (0.5, 90.0, 33.0),
+        (0.9, -90.0, 43.0),
+        (0.9, 180.0, 60.0),
+    ],
+)
+def test_a_walk_survives_a_push(talos: Robot, share: float, angle: float, impulse: float):
+    walk = pushed(talos, share, angle, impulse)
+    assert not walk.fallen
+    assert len(walk.record().plans) > 1
+
+
+def test_a_sideways_push_on_a_stand_is_stepped_out_of(talos: Robot):
+    walk = pushed(talos, None, 90.0, 47.0)
+    assert not walk.fallen
+
+
+def test_steps_that_no_plan_may_have_are_no_answer(talos: Robot, monkeypatch: pytest.MonkeyPatch):
+    def refused(*_: object) -> None:
+        raise InvalidInput("step 7 must be taken by the left foot.")
+
+    monkeypatch.setattr("preview_walk.stabilizer.recovery.adapt_step", refused)
+    walk = pushed(talos, 0.5, 0.0, 20.0)
+    assert not walk.fallen
+    assert len(walk.record().plans) == 1
+
+
+def test_a_push_is_opposed_as_it_comes(talos: Robot):
+    """At once the ZMP goes where the push's moment about it is the weight's, or beyond."""
+    walk = pushed(talos, None, 0.0, 10.0)
+    record = walk.record()
+    before, after = np.searchsorted(record.time, (0.29, 0.33))
+    wanted = 50.0 / (talos.mass * walk.walker.pattern.omega**2)
+    shift = record.zmp[after, 0] - record.zmp[before, 0]
+    assert 0.95 * wanted < shift < talos.soles["left"].half_length
+    assert np.abs(record.com - record.com[0])[:, :2].max() < 0.01
+
+
+@pytest.mark.parametrize("impulse", [12.0, 17.1, 20.0])
+def test_a_narrow_soled_robot_pushed_sideways_stands_where_it_is(impulse: float):
+    """With the load all on one sole's edge the other sole stays at the ground."""
+    walk = pushed(pw.load_robot("g1"), None, 90.0, impulse)
+    assert not walk.fallen
+    assert walk.plan.steps == ()
+    record = walk.record()
+    assert record.right_foot[:, 2, 3].max() < 0.002
+
+
+def test_ankles_answer_a_small_push_on_a_stand(talos: Robot):
+    walk = pushed(talos, None, 0.0, 15.0)
+    assert not walk.fallen
+    assert walk.plan.steps == ()
+
+
+def test_a_stand_is_left_by_steps_and_stands_again(talos: Robot):
+    walk = pushed(talos, None, 0.0, 42.0)
+    assert not walk.fallen
+    assert len(walk.plan.steps) >= 2
+    assert walk.plan.end < walk.time
+    assert np.linalg.norm(walk.walker.body.dynamics.com_velocity) < 0.05
+
+
+def test_a_foot_that_rises_again_is_given_the_time_to():
+    """Hurried down again from there, it would hit the ground."""
+    g1 = pw.load_robot("g1")
+    planner = pw.FootstepPlanner(0.15, g1.step_width, 0.75, 0.2)
+    plan = planner.generate_footsteps(8)
+    step = [s for s in plan.steps if s.foot == "right"][2]
+    t = step.lift + 0.5 * (step.land - step.lift)
+    walk = pw.Walk(g1, plan, pushes=[pw.Push(t, 0.2, (-104.5, 0.0, 0.0))]).run(until=t + 2.0)
+    assert not walk.fallen
+    risen, lift, land, soonest = 0, 0.0, 0.0, 0.0
+    for plan in walk.record().plans:
+        now = [k for k in range(2, len(plan.foot)) if plan.lift[k] <= plan.time < plan.land[k]]
+        if not now:
+            continue
+        late = plan.lift[now[0]] == lift and land - plan.time < LATEST
+        if plan.lift[now[0]] != lift:
+            soonest = 0.0
+        elif late and plan.land[now[0]] > plan.time + RELIFT - 1e-6:
+            risen, soonest = risen + 1, plan.land[now[0]]
+        lift, land = plan.lift[now[0]], plan.land[now[0]]
+        assert late or land > soonest - 1e-6
+    assert risen > 0
