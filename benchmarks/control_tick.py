@@ -50,7 +50,7 @@ class Tick:
     def show(self, body: WholeBodyController) -> None:
         """Set the references of a controller."""
         body.com.acceleration = self.com
-        for foot, task in body.feet.items():
+        for foot, task in body.foot_tasks.items():
             task.pose, task.velocity, task.acceleration = self.feet[foot]
         body.torso.rotation, body.torso.velocity = self.torso
 
@@ -73,7 +73,7 @@ def record(robot: Robot, steps: int) -> list[Tick]:
                 body.com.acceleration.copy(),
                 {
                     f: (t.pose.copy(), t.velocity.copy(), t.acceleration.copy())
-                    for f, t in body.feet.items()
+                    for f, t in body.foot_tasks.items()
                 },
                 (body.torso.rotation.copy(), body.torso.velocity.copy()),
             )

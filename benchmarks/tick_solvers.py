@@ -34,8 +34,8 @@ def fresh_osqp(problem: TickProblem) -> Solve:
     nv, nf, n, m = problem.nv, problem.nf, problem.n, problem.m
     qp: Any = problem.build()
     rest = m - 6
-    prior = np.concatenate([problem.prior_weight, np.diag(qp.P)[nv:], np.ones(rest)])
-    scale = 1.0 / np.sqrt(problem.slack[:rest])
+    prior = np.concatenate([problem.regularization_weight, np.diag(qp.P)[nv:], np.ones(rest)])
+    scale = 1.0 / np.sqrt(problem.inverse_weight[:rest])
     tasks = np.zeros((rest, len(prior)))
     tasks[:, :nv] = problem.rows[:rest] * scale[:, None]
     tasks[:, nv + nf + n :] = -np.eye(rest)
@@ -50,7 +50,7 @@ def fresh_osqp(problem: TickProblem) -> Solve:
     low = np.concatenate([qp.b, target, np.full(len(qp.h), -np.inf), qp.lb[bounds]])
     high = np.concatenate([qp.b, target, qp.h, qp.ub[bounds]])
     q = np.zeros(len(prior))
-    q[:nv] = -problem.prior_weight * problem.prior
+    q[:nv] = -problem.regularization_weight * problem.regularization_target
     P = sparse.diags(prior, format="csc")
 
     def solve() -> tuple[Array, Array]:
@@ -107,11 +107,13 @@ class DirectDaqp:
         p, H, A, low, high = self.problem, self.H, self.A, self.low, self.high
         nv, nf, n, size = p.nv, p.nf, p.n, p.nv + p.nf
         rows = p.rows[self.tasks]
-        weighted = rows.T / p.slack[self.tasks]
+        weighted = rows.T / p.inverse_weight[self.tasks]
         np.matmul(weighted, rows, out=H[:nv, :nv])
-        H.reshape(-1)[: nv * size : size + 1] += p.prior_weight
+        H.reshape(-1)[: nv * size : size + 1] += p.regularization_weight
         H[self.wrench, self.wrench] = p.wrench_weight * p.unit**2
-        self.f[:nv] = -p.prior_weight * p.prior - weighted @ p.target[self.tasks]
+        self.f[:nv] = (
+            -p.regularization_weight * p.regularization_target - weighted @ p.target[self.tasks]
+        )
         torque = A[6 + nf : 6 + nf + n]
         A[:6, :nv] = p.rows[-6:]
         A[:6, nv:] = -p.wrench_map * p.unit

@@ -59,8 +59,8 @@ def main() -> None:
     world.place(robot.posture)
     body = WholeBodyController(robot, TrackingGains(), FRICTION)
     home = np.array((0.0, 0.0, robot.com_height))
-    right = body.feet["right"]
-    ground = body.dynamics.feet["right"].position.copy()
+    right = body.foot_tasks["right"]
+    ground = body.dynamics.soles["right"].position.copy()
     scale = np.array((robot.step_width, robot.step_width, robot.leg_length, robot.leg_length))
 
     rows, marks, before = [], [0.0], np.zeros(4)
@@ -81,7 +81,7 @@ def main() -> None:
             torques = body.torques({foot: 2.0 * robot.mass * 9.81 for foot in standing})
             felt = [world.wrench[foot][2] for foot in ("left", "right")]
             load = np.abs(torques / np.maximum(robot.effort, 1e-9)).max()
-            sole = dynamics.feet["right"].position
+            sole = dynamics.soles["right"].position
             rows.append((*dynamics.com, *(home + goal[:3]), sole[2], goal[3], *felt, load))
             world.step(torques, round(1000 * TICK))
         before = target

@@ -147,8 +147,8 @@ def _plan(case: PushCase, best: TimedCapture, mirror: float) -> SurvivalPlan:
     least[-1:] = 0.0
     shares = capture.shares[len(capture.shares) - count :]
     along = np.divide(shares - least, 1.0 - least, out=np.ones(count), where=least < 1.0)
-    waiting = float(capture.shares[0]) if share is None else 0.0
-    cops = [soles[1] + waiting * (soles[0] - soles[1])]
+    keep_standing = float(capture.shares[0]) if share is None else 0.0
+    cops = [soles[1] + keep_standing * (soles[0] - soles[1])]
     for k in range(count):
         cops += [soles[k + 1], soles[k + 1] + along[k] * strides[k]]
     origin = np.array([0.0, 0.5 * soles[0, 1]]) if share is None else np.zeros(2)

@@ -8,7 +8,7 @@ from math import exp, expm1, inf, isfinite
 
 import numpy as np
 
-from preview_walk.capturability.program import Polygon, Stride
+from preview_walk.capturability.program import Polygon, CaptureStep
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.support import Sole
 from preview_walk.preview.cart_table import natural_frequency
@@ -142,7 +142,7 @@ class PushGait:
         delay: float,
         singles: Sequence[float],
         kept: bool = False,
-    ) -> list[Stride]:
+    ) -> list[CaptureStep]:
         """Return what the strides after the push may be, if they keep to these times.
 
         Who stands is in double support for a while first. That contributes like a stride back to
@@ -158,7 +158,7 @@ class PushGait:
         strides, time = [], 0.0
         place = self.swing_foot(share)
         if share is None:
-            strides.append(Stride(-expm1(-self.omega * delay), 0.0, Polygon.point(place)))
+            strides.append(CaptureStep(-expm1(-self.omega * delay), 0.0, Polygon.point(place)))
             time = delay
         for index, single in enumerate(singles):
             time += single
@@ -175,7 +175,7 @@ class PushGait:
                     reach &= Polygon.disc(place, self.swing_speed * single)
             last = index == len(singles) - 1
             strides.append(
-                Stride(
+                CaptureStep(
                     most=exp(-self.omega * time),
                     least=0.0 if last else exp(-self.omega * self.double_support),
                     reach=reach,

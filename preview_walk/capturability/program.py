@@ -83,7 +83,7 @@ class Polygon:
 
 
 @dataclass(frozen=True, eq=False)
-class Stride:
+class CaptureStep:
     """What one stride may be.
 
     Attributes:
@@ -117,7 +117,7 @@ class Capture:
 
 
 def largest_jump(
-    dcm: Array, direction: Array, sole: Sole, strides: Sequence[Stride], refine: bool = True
+    dcm: Array, direction: Array, sole: Sole, strides: Sequence[CaptureStep], refine: bool = True
 ) -> Capture | None:
     """Return the largest jump of the DCM in a direction that the strides capture, or None.
 
@@ -143,7 +143,7 @@ def largest_jump(
     return max(starts, key=lambda capture: capture.jump, default=None)
 
 
-def _travels(capture: Capture, strides: Sequence[Stride]) -> bool:
+def _travels(capture: Capture, strides: Sequence[CaptureStep]) -> bool:
     """Return whether every swing foot gets as far as it has to."""
     ways = capture.strides[:-1] + capture.strides[1:]
     limits = np.array([stride.travel * cos(pi / _SIDES) for stride in strides[1:]])
@@ -151,7 +151,7 @@ def _travels(capture: Capture, strides: Sequence[Stride]) -> bool:
 
 
 def _refined(
-    dcm: Array, direction: Array, sole: Sole, strides: Sequence[Stride], start: Capture
+    dcm: Array, direction: Array, sole: Sole, strides: Sequence[CaptureStep], start: Capture
 ) -> Capture:
     """Return a capture no worse than `start`: the weights moved while that pays."""
     best, trust = start, 0.5
@@ -170,7 +170,7 @@ def _solve(
     dcm: Array,
     direction: Array,
     sole: Sole,
-    strides: Sequence[Stride],
+    strides: Sequence[CaptureStep],
     about: Capture | None = None,
     trust: float = 0.0,
 ) -> Capture | None:

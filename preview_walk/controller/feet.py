@@ -108,7 +108,7 @@ class Feet:
         foot, swing = step.foot, state.swing
         if swing is None or swing.lift != step.lift:
             # From where the foot is, so that no error of this stance goes into the next.
-            terms = self._body.dynamics.feet[foot]
+            terms = self._body.dynamics.soles[foot]
             x, y, z = terms.position.tolist()
             start = pose_at(x, y, yaw_of(sole_pose(terms)), z)
             swing = Swing(start, step.pose, step.lift, step.land, self._swing_height)
@@ -119,7 +119,7 @@ class Feet:
         landed = not state.contact and descending and touching
         if landed:
             state.contact, state.felt, state.since = True, True, t
-        task = self._body.feet[foot]
+        task = self._body.foot_tasks[foot]
         state.swing = swing
         state.pose, task.velocity, task.acceleration = swing.at(t)
         task.pose = state.pose
@@ -137,7 +137,7 @@ class Feet:
                 state.contact, state.since = True, t
             return
         state.contact = False
-        task = self._body.feet[foot]
+        task = self._body.foot_tasks[foot]
         task.pose = state.pose.copy()
         task.pose[2, 3] -= PROBE_SPEED * late
         task.velocity = np.array((0.0, 0.0, -PROBE_SPEED, 0.0, 0.0, 0.0))

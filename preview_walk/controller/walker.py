@@ -84,7 +84,7 @@ class Walker:
         self.recovery.answer(t, self.pattern, body.dynamics, self.feet, self._zmp)
         early = self.feet.follow(t, self.plan, normal_force)
         if early is not None:
-            pose = sole_pose(body.dynamics.feet[early])
+            pose = sole_pose(body.dynamics.soles[early])
             self.recovery.touched_down(t, early, self.pattern, pose)
         self._track_com(t)
         self._track_torso(t)
@@ -107,7 +107,7 @@ class Walker:
         away = (com + velocity / omega) - (reference.com + reference.velocity / omega)[:2]
         zmp = cart + (1.0 + k / omega) * away + self.recovery.push / omega
         shift = reference.zmp - cart
-        soles = [sole_pose(dynamics.feet[f]) for f in FEET if self.feet[f].contact]
+        soles = [sole_pose(dynamics.soles[f]) for f in FEET if self.feet[f].contact]
         if soles:
             self._zmp = within_support(zmp + shift, soles, self.sole) - shift
             zmp = within_support(zmp + shift, soles, self._reach) - shift
@@ -126,13 +126,14 @@ class Walker:
         rate = 0.0
         for foot in FEET:
             if not self.feet[foot].contact:
-                rate += 0.5 * self.body.feet[foot].velocity[5]
+                rate += 0.5 * self.body.foot_tasks[foot].velocity[5]
         self.body.torso.velocity = np.array((0.0, 0.0, rate))
 
 
 def _legs(robot: Robot, dynamics: Dynamics) -> LegGeometry:
     """Return the leg geometry of a robot standing in its walking posture."""
     height = (
-        dynamics.data.oMi[robot.legs["left"].hip].translation[2] - dynamics.feet["left"].position[2]
+        dynamics.data.oMi[robot.legs["left"].hip].translation[2]
+        - dynamics.soles["left"].position[2]
     )
     return LegGeometry(robot.leg_length, float(height), robot.com_height)

@@ -51,7 +51,7 @@ def to_pose(
     ahead = relative(_centre("right", soles["right"], planner), target)
     foot: Foot = "left" if (ahead[1] or ahead[2]) >= 0.0 else "right"
     steps: list[Footstep] = []
-    lift = last + max(STAND_TIME, 2.0 * plan.settle)
+    lift = last + max(STAND_TIME, 2.0 * plan.weight_shift)
     most = 100 + 20 * ceil((hypot(ahead[0], ahead[1]) + 1.0) / size)
     while not all(_near(_centre(f, soles[f], planner), target) for f in FEET):
         if len(steps) >= most:
@@ -100,7 +100,7 @@ def from_list(
     last = plan[-1].land
     soles = {foot: plan.sole(foot, last) for foot in FEET}
     ground = float(soles["left"][2, 3])
-    lift = last + max(STAND_TIME, 2.0 * plan.settle)
+    lift = last + max(STAND_TIME, 2.0 * plan.weight_shift)
     steps: list[Footstep] = []
     for (foot, place), time in zip(footholds, times, strict=True):
         number = len(plan.steps) + len(steps) + 1

@@ -24,7 +24,7 @@ from preview_walk.types import (
     other,
 )
 
-SETTLE_TIME = 0.4
+WEIGHT_SHIFT_TIME = 0.4
 """Default time (s) in which the ZMP goes from one foot to midfeet, or from midfeet to one foot."""
 
 
@@ -32,26 +32,27 @@ class FootstepPlan(Sequence[Footstep]):
     """An immutable walk: two standing soles, then swing steps in time order.
 
     `plan[0]` and `plan[1]` are the left and right soles stood on at `start`, `plan[2:]` (also
-    `steps`) the swing steps, numbered from 1 in messages.  A pause of at least `2 * settle`
+    `steps`) the swing steps, numbered from 1 in messages.  A pause of at least `2 * weight_shift`
     between a landing and the next lift is a *stand*: the ZMP comes to rest between the feet, and
     either foot may go first.
 
     Args:
         steps: the two stance soles (in either order) and then the swing steps.
-        settle: time (s) of a ZMP shift between one foot and midfeet, in stands and at the end.
+        weight_shift: time (s) in which the ZMP goes between one foot and midfeet, in stands and
+            at the end.
 
     Raises:
         InvalidInput: the first two are not one stance sole of each foot at one time, feet do not
             alternate, or a step does not lift after the step before it has landed.
     """
 
-    __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_settle", "_steps")
+    __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_steps", "_weight_shift")
 
-    def __init__(self, steps: Iterable[Footstep], settle: float = SETTLE_TIME) -> None:
+    def __init__(self, steps: Iterable[Footstep], weight_shift: float = WEIGHT_SHIFT_TIME) -> None:
         items = tuple(steps)
-        settle = float(settle)
-        if not (isfinite(settle) and settle > 0.0):
-            raise InvalidInput(f"settle must be a time > 0 s, got {settle}.")
+        weight_shift = float(weight_shift)
+        if not (isfinite(weight_shift) and weight_shift > 0.0):
+            raise InvalidInput(f"weight_shift must be a time > 0 s, got {weight_shift}.")
         stance = items[:2]
         if {s.foot for s in stance if s.type == "stance"} != set(FEET):
             found = ", ".join(f"{s.foot} {s.type}" for s in stance) or "nothing"
@@ -63,21 +64,25 @@ class FootstepPlan(Sequence[Footstep]):
             raise InvalidInput(f"both stance footsteps must have the same time, got {both}.")
         if stance[0].foot == "right":
             items = (items[1], items[0], *items[2:])
-        self._fill((), items, settle)
+        self._fill((), items, weight_shift)
 
     @classmethod
     def standing(
-        cls, left: Array, right: Array, start: float = 0.0, settle: float = SETTLE_TIME
+        cls, left: Array, right: Array, start: float = 0.0, weight_shift: float = WEIGHT_SHIFT_TIME
     ) -> FootstepPlan:
         """Return the plan without steps: both soles (poses, (4, 4)) stand from `start` (s) on."""
         soles = zip(FEET, (left, right), strict=True)
-        return cls([Footstep(foot, pose, start, start, "stance") for foot, pose in soles], settle)
+        return cls(
+            [Footstep(foot, pose, start, start, "stance") for foot, pose in soles], weight_shift
+        )
 
-    def _fill(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...], settle: float) -> None:
+    def _fill(
+        self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...], weight_shift: float
+    ) -> None:
         """Set the fields; `kept` was checked before, only `new` is checked here."""
         self._items = kept + new
         self._steps = self._items[2:]
-        self._settle = settle
+        self._weight_shift = weight_shift
         for index in range(max(2, len(kept)), len(self._items)):
             self._check(index)
         self._lifts = [s.lift for s in self._steps]
@@ -102,7 +107,7 @@ class FootstepPlan(Sequence[Footstep]):
             raise InvalidInput(
                 f"step {number} must be taken by the {other(step.foot)} foot, because step "
                 f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "
-                f"(a foot may go twice after a stand of {2 * self._settle:.3f} s)."
+                f"(a foot may go twice after a stand of {2 * self._weight_shift:.3f} s)."
             )
 
     def __len__(self) -> int:
@@ -124,9 +129,9 @@ class FootstepPlan(Sequence[Footstep]):
         return self._steps
 
     @property
-    def settle(self) -> float:
+    def weight_shift(self) -> float:
         """Time (s) of a ZMP shift between one foot and midfeet."""
-        return self._settle
+        return self._weight_shift
 
     @property
     def start(self) -> float:
@@ -136,7 +141,7 @@ class FootstepPlan(Sequence[Footstep]):
     @property
     def end(self) -> float:
         """Time (s) at which the weight is back between the feet after the last landing."""
-        return self._lands[-1] + self._settle if self._lands else self.start
+        return self._lands[-1] + self._weight_shift if self._lands else self.start
 
     def support(self, t: float) -> int:
         """Return the phase code at time t (s): 0 double, 1 left, 2 right support."""
@@ -174,8 +179,8 @@ class FootstepPlan(Sequence[Footstep]):
         return self._steps[: bisect_right(self._lifts, t)]
 
     def is_stand(self, pause: float) -> bool:
-        """Return whether a double support of `pause` seconds is a stand (>= 2 settle)."""
-        return pause >= 2.0 * self._settle - 1e-9
+        """Return whether a double support of `pause` seconds is a stand (>= 2 weight_shift)."""
+        return pause >= 2.0 * self._weight_shift - 1e-9
 
     def replace_after(self, t: float, steps: Iterable[Footstep]) -> FootstepPlan:
         """Return the plan with the steps lifted by time t (s), followed by `steps`.
@@ -233,5 +238,5 @@ class FootstepPlan(Sequence[Footstep]):
 
     def _with(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...]) -> FootstepPlan:
         plan = object.__new__(FootstepPlan)
-        plan._fill(kept, new, self._settle)
+        plan._fill(kept, new, self._weight_shift)
         return plan

@@ -176,7 +176,7 @@ class FootstepPlanner:
         soles = {foot: plan.sole(foot, last) for foot in FEET}
         z = 0.5 * float(soles["left"][2, 3] + soles["right"][2, 3])
         frame = midfeet(soles["left"], soles["right"])
-        lift = last + max(STAND_TIME, 2.0 * plan.settle)
+        lift = last + max(STAND_TIME, 2.0 * plan.weight_shift)
         steps: list[Footstep] = []
         foot = start_foot
         for stride in strides:

@@ -70,7 +70,7 @@ def follow_velocity(
         foot, lift = planned.foot, planned.lift
     elif moving:
         foot = _first_foot(vy, wz, last)
-        lift = max(t + START_DELAY, last.land + 2.0 * plan.settle)
+        lift = max(t + START_DELAY, last.land + 2.0 * plan.weight_shift)
     else:
         return plan
     stance = heading_of(plan.sole(other(foot), lift))

@@ -81,7 +81,7 @@ def zmp_reference(
     """Return the ZMP reference of a plan.
 
     Before the first lift, after the last landing and in every stand of the plan the ZMP rests
-    midway between the soles; it leaves and reaches that point in `plan.settle` seconds.
+    midway between the soles; it leaves and reaches that point in `plan.weight_shift` seconds.
 
     Args:
         plan: the walk.
@@ -95,7 +95,7 @@ def zmp_reference(
     if not (isfinite(margin) and margin >= 0.0):
         raise InvalidInput(f"margin must be >= 0 m, got {margin}.")
     sole = Sole() if sole is None else sole
-    settle, n = plan.settle, len(plan.steps)
+    weight_shift, n = plan.weight_shift, len(plan.steps)
     poses = np.array([s.pose for s in plan])
     standing, stance = _standing(plan)
     centres = poses[:, :2, 3]
@@ -106,8 +106,8 @@ def zmp_reference(
     rest = centres[stance]
     lift = np.array([s.lift for s in plan.steps])
     land = np.array([s.land for s in plan.steps])
-    first = np.array([lift[0] - min(settle, lift[0] - plan.start), lift[0]])
-    last = np.array([land[-1], land[-1] + settle])
+    first = np.array([lift[0] - min(weight_shift, lift[0] - plan.start), lift[0]])
+    last = np.array([land[-1], land[-1] + weight_shift])
     # Double supports between steps: four knots each, either one crossing or a stop at midfeet.
     a, b = land[:-1], lift[1:]
     across = rest[1:] - rest[:-1]
@@ -120,7 +120,7 @@ def zmp_reference(
     stands = np.array([plan.is_stand(pause) for pause in (b - a).tolist()], dtype=bool)
     times = np.where(
         stands,
-        np.array([a, a + settle, b - settle, b]),
+        np.array([a, a + weight_shift, b - weight_shift, b]),
         np.array([a - extra, a, b, b + extra]),
     )
     stop = stands[:, None]

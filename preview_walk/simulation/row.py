@@ -61,7 +61,7 @@ def tick_row(
     body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
     assert reference is not None
     assert body.solution is not None
-    left, right = dynamics.feet["left"], dynamics.feet["right"]
+    left, right = dynamics.soles["left"], dynamics.soles["right"]
     planned = _planned_wrenches(walker, body.solution.wrench)
     upright = float(dynamics.torso.rotation[2, 2])
     return {
@@ -119,7 +119,7 @@ def _planned_wrenches(walker: Walker, wrench: Array) -> dict[Foot, Array]:
     """
     planned: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
     for k, foot in enumerate(f for f in FEET if walker.feet[f].contact):
-        rotation = walker.body.dynamics.feet[foot].rotation
+        rotation = walker.body.dynamics.soles[foot].rotation
         planned[foot][:3] = rotation @ wrench[6 * k : 6 * k + 3]
         planned[foot][3:] = rotation @ wrench[6 * k + 3 : 6 * k + 6]
     return planned

@@ -265,7 +265,7 @@ class Walk:
     def _check_fall(self, t: float) -> None:
         dynamics = self.walker.body.dynamics
         # The lower foot is on the ground; the other one may be flung up by a recovery step.
-        ground = min(dynamics.feet[foot].position[2] for foot in FEET)
+        ground = min(dynamics.soles[foot].position[2] for foot in FEET)
         height = float(dynamics.com[2] - ground)
         tilt = float(np.arccos(np.clip(dynamics.torso.rotation[2, 2], -1.0, 1.0)))
         if height < FALL_HEIGHT * self.robot.com_height:

@@ -17,11 +17,11 @@ from preview_walk.geometry.support import Sole, support_margin, support_polygon
 from preview_walk.pattern.walking_pattern import PLANNING_DT, WalkingPattern
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.recovery_steps import (
-    hastened,
-    landed_at,
+    keep_standing,
+    land_at,
     outward,
-    stepped_out,
-    waiting,
+    step_out,
+    step_sooner,
 )
 from preview_walk.stabilizer.step_adaptation import (
     LATEST,
@@ -33,7 +33,7 @@ from preview_walk.stabilizer.step_adaptation import (
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.types import FEET, Array, Foot
 
-SWING_PULL = 25.0
+SWING_ACCELERATION = 25.0
 """Acceleration (m/s^2) that a recovery step may ask of the swing foot."""
 
 EARLY = 0.05
@@ -83,7 +83,7 @@ class Recovery:
             (HOLD * half.half_length, HOLD * half.half_width),
             (1.1 * pendulum, 3.5 * pendulum),
             4.0 * float(np.sqrt(leg)),
-            SWING_PULL,
+            SWING_ACCELERATION,
             TOLERANCE * leg,
         )
         self._stand_sole = Sole(*self.limits.zmp)
@@ -148,7 +148,7 @@ class Recovery:
             return
         if step.land - t > EARLY:
             with suppress(InvalidInput):  # as in `_revised`
-                pattern.plan = landed_at(pattern.plan, t, pose, t + 1e-4)
+                pattern.plan = land_at(pattern.plan, t, pose, t + 1e-4)
 
     def _swinging(
         self, t: float, pattern: WalkingPattern, dcm: Array, step: Footstep, dynamics: Dynamics
@@ -156,9 +156,9 @@ class Recovery:
         if self._nominal is None or self._nominal.lift != step.lift:
             self._nominal, self._risen = step, -np.inf
         following = pattern.plan.next_lift(step.land)
-        settle = pattern.plan.settle
-        pause = settle if following is None else min(settle, following.lift - step.land)
-        sole = dynamics.feet[step.foot]
+        weight_shift = pattern.plan.weight_shift
+        pause = weight_shift if following is None else min(weight_shift, following.lift - step.land)
+        sole = dynamics.soles[step.foot]
         shortest, longest = self.limits.swing_time
         limits = replace(self.limits, swing_time=(max(shortest, self._risen - step.lift), longest))
         plan = adapt_step(
@@ -187,13 +187,13 @@ class Recovery:
             ahead = dcm + AHEAD * self.push
         if step is not None and self._held(t, plan, ahead, pattern.planned_dcm(step.lift), step):
             return None
-        out = stepped_out(plan, t, ahead, sole, limits.gait, limits.omega, time)
+        out = step_out(plan, t, ahead, sole, limits.gait, limits.omega, time)
         if out is None:
-            out = waiting(plan, t, ahead)
+            out = keep_standing(plan, t, ahead)
         if out is None and step is not None:
             drift = outward(plan, t, step.foot, ahead) - outward(plan, t, step.foot, planned)
             if drift <= OUTWARD * limits.tolerance:
-                out = hastened(plan, t)
+                out = step_sooner(plan, t)
         return None if out is plan else out
 
     def _held(self, t: float, plan: FootstepPlan, dcm: Array, goal: Array, step: Footstep) -> bool:

@@ -24,7 +24,7 @@ UNLOAD = 0.03
 """Time (s) in which a foot that stands is freed of its load before it lifts."""
 
 
-def landed_at(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepPlan:
+def land_at(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepPlan:
     """Return the plan whose step in the air at t (s) lands at `pose` (4, 4) at `land` (s).
 
     The double support after it is cut to `SHORT_PAUSE`, unless the walk stands there.
@@ -40,7 +40,7 @@ def landed_at(plan: FootstepPlan, t: float, pose: Array, land: float) -> Footste
     return plan.retarget(t, pose, land).replace_after(t, _moved(later, move, delay))
 
 
-def hastened(plan: FootstepPlan, t: float) -> FootstepPlan | None:
+def step_sooner(plan: FootstepPlan, t: float) -> FootstepPlan | None:
     """Return the plan whose next foot lifts as soon as it can, or None where it does or stands."""
     step = plan.next_lift(t)
     if step is None:
@@ -53,7 +53,7 @@ def hastened(plan: FootstepPlan, t: float) -> FootstepPlan | None:
     return plan.replace_after(t, _moved(later, np.zeros(3), soonest - step.lift))
 
 
-def waiting(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | None:
+def keep_standing(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | None:
     """Return the plan whose next foot stays down while the DCM (2,) is beyond the other one.
 
     There a lifted foot could not catch it, but both feet together can hold it. None where the next
@@ -71,7 +71,7 @@ def waiting(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | None:
     return plan.replace_after(t, _moved(later, np.zeros(3), soonest - step.lift))
 
 
-def stepped_out(
+def step_out(
     plan: FootstepPlan,
     t: float,
     dcm: Array,
@@ -105,7 +105,7 @@ def stepped_out(
     walking = following is not None and not plan.is_stand(following.lift - last)
     foot, landing = _best_foot(soles, dcm, sole, gait, exp(omega * swing_time))
     if walking and following is not None and foot == following.foot:
-        return hastened(plan, t)
+        return step_sooner(plan, t)
     stance = soles[other(foot)]
     z = float(stance[2, 3])
     land = t + UNLOAD + swing_time
@@ -125,7 +125,7 @@ def stepped_out(
     move[:2] = 0.5 * (np.array(landing[:2]) + beside[:2]) - middle[:2]
     delay = 0.0
     if later:
-        delay = max(0.0, second.land + 3.0 * plan.settle - later[0].lift)
+        delay = max(0.0, second.land + 3.0 * plan.weight_shift - later[0].lift)
     return plan.replace_after(t, [first, second, *_moved(later, move, delay)])
 
 

@@ -26,7 +26,7 @@ from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import compose, heading_of, pose_at
-from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE, landed_at
+from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE, land_at
 from preview_walk.types import Array, Foot, other
 
 TIMES = 40
@@ -43,7 +43,7 @@ KEEP_WEIGHT, KEEP_TIME = 2.0, 2.0
 CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
 
-SPEED_SHARE, PULL_SHARE = (0.53, 0.07), (0.173, 0.45)
+SPEED_SHARE, ACCELERATION_SHARE = (0.53, 0.07), (0.173, 0.45)
 """A quintic from rest to rest covers 8/15 of its top speed times its time, and sqrt(3)/10 of its
 top acceleration times that squared; a foot under way gets further by the second shares of its speed
 times the time left."""
@@ -77,7 +77,7 @@ class StepLimits:
         zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
         swing_time: shortest and longest time in the air (s).
         swing_speed: top speed (m/s) of the swing foot.
-        swing_pull: top acceleration (m/s^2) of the swing foot.
+        swing_acceleration: top acceleration (m/s^2) of the swing foot.
         tolerance: error of the DCM (m) at landing that needs no answer.
     """
 
@@ -86,7 +86,7 @@ class StepLimits:
     zmp: tuple[float, float]
     swing_time: tuple[float, float]
     swing_speed: float
-    swing_pull: float
+    swing_acceleration: float
     tolerance: float
 
 
@@ -116,11 +116,11 @@ def adapt_step(
     if step is None or step.land - t < SOON:
         return None
     following = next((s for s in plan.steps if s.lift >= step.land), None)
-    pause = following.lift - step.land if following is not None else plan.settle
+    pause = following.lift - step.land if following is not None else plan.weight_shift
     stance = plan.sole(other(step.foot), t)
     axes, origin = stance[:2, :2], stance[:2, 3]
     half = np.array(limits.zmp)
-    growth = exp(limits.omega * (step.land + 0.5 * min(pause, plan.settle) - t))
+    growth = exp(limits.omega * (step.land + 0.5 * min(pause, plan.weight_shift) - t))
     grown = (dcm - planned[0]) @ axes * growth
     rest = grown - np.clip(grown / (growth - 1.0), -half, half) * (growth - 1.0)
     if np.abs(rest).max() <= limits.tolerance:
@@ -149,7 +149,7 @@ def adapt_step(
     if late and best == len(land) - 1:  # down at once; the next step keeps its time
         later = plan.steps[plan.steps.index(step) + 1 :]
         return plan.retarget(t, pose, float(land[best])).replace_after(t, later)
-    return landed_at(plan, t, pose, float(land[best]))
+    return land_at(plan, t, pose, float(land[best]))
 
 
 def _landing_times(
@@ -160,7 +160,7 @@ def _landing_times(
     Where that is so near that it stays, the last is at once.
     """
     height = max(0.0, height - float(step.pose[2, 3]))
-    drop = float(np.sqrt(height / (PULL_SHARE[0] * DROP)))
+    drop = float(np.sqrt(height / (ACCELERATION_SHARE[0] * DROP)))
     late = step.land - t < LATEST
     first = max(t + (RELIFT if late else max(LATEST, drop)), step.lift + limits.swing_time[0])
     last = max(step.lift + limits.swing_time[1], first + LATEST)
@@ -178,9 +178,13 @@ def _reachable(
     """
     gait, side = limits.gait, 1.0 if foot == "left" else -1.0
     slow = limits.swing_speed * SPEED_SHARE[0] * left
-    weak = limits.swing_pull * PULL_SHARE[0] * left**2
-    ahead = np.minimum(slow + SPEED_SHARE[1] * speed * left, weak + PULL_SHARE[1] * speed * left)
-    behind = np.minimum(slow - SPEED_SHARE[1] * speed * left, weak - PULL_SHARE[1] * speed * left)
+    weak = limits.swing_acceleration * ACCELERATION_SHARE[0] * left**2
+    ahead = np.minimum(
+        slow + SPEED_SHARE[1] * speed * left, weak + ACCELERATION_SHARE[1] * speed * left
+    )
+    behind = np.minimum(
+        slow - SPEED_SHARE[1] * speed * left, weak - ACCELERATION_SHARE[1] * speed * left
+    )
     low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     return np.clip(here - behind, low, high), np.clip(here + ahead, low, high)

@@ -54,7 +54,7 @@ class Dynamics:
       CoM's acceleration is com_jacobian @ a + com_drift.
     - `momentum_jacobian` (3, nv) and `momentum_drift` (3,): of the angular momentum about the CoM,
       in world axes, and of its rate; for the drift call `update_momentum` first.
-    - `feet`: `FrameTerms` of the soles; `torso`: of the trunk; `frame(name)`: of any other.
+    - `soles`: their `FrameTerms`; `torso`: of the trunk; `frame(name)`: of any other.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -82,7 +82,7 @@ class Dynamics:
         self._base_position: Array = data.oMi[1].translation
         self._linear_momentum: Array = data.Ag[:3]
         self._frames: dict[int, FrameTerms] = {}
-        self.feet: dict[Foot, FrameTerms] = {
+        self.soles: dict[Foot, FrameTerms] = {
             foot: self._add(robot.soles[foot].frame) for foot in FEET
         }
         self.torso = self._add(robot.torso)

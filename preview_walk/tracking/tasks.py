@@ -62,7 +62,7 @@ class FootTask:
 
     def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
         """See `Task.update`."""
-        terms = dynamics.feet[self.foot]
+        terms = dynamics.soles[self.foot]
         rotation, pose = terms.rotation, self.pose
         jacobian[:] = terms.jacobian
         # The reference's own motion and the pull towards it, turned into the sole's axes.

@@ -44,7 +44,7 @@ class TickTimes:
 class WholeBodyController:
     """Tasks and contacts in, torques out.
 
-    `com`, `feet`, `torso`, `posture` (and `momentum` when the gains give it a weight) are the
+    `com`, `foot_tasks`, `torso`, `posture` (and `momentum` when the gains give it a weight) are the
     tasks: set their references, then call `update` and `torques`. A foot that is not in contact
     follows its foot task. `add_task` adds one's own.
 
@@ -67,7 +67,7 @@ class WholeBodyController:
         self.backend: Backend = make_backend(solver)
         self.dynamics = Dynamics(robot)
         self.com = CoMTask(gains.com_weight)
-        self.feet = {foot: FootTask(foot, gains.foot_weight, gains.foot) for foot in FEET}
+        self.foot_tasks = {foot: FootTask(foot, gains.foot_weight, gains.foot) for foot in FEET}
         self.torso = TorsoTask(gains.torso_weight, gains.torso)
         self.tasks: list[Task] = [self.com, self.torso]
         self.momentum = AngularMomentumTask(gains.momentum_weight, gains.momentum)
@@ -139,7 +139,7 @@ class WholeBodyController:
         if self.solution is None or foot not in self._contacts:
             return np.zeros(6)
         local = self.solution.wrench[6 * self._contacts.index(foot) :][:6]
-        world: Array = (local.reshape(2, 3) @ self.dynamics.feet[foot].rotation.T).reshape(6)
+        world: Array = (local.reshape(2, 3) @ self.dynamics.soles[foot].rotation.T).reshape(6)
         return world
 
     def build(self, normal_limit: Mapping[Foot, float]) -> qpsolvers.Problem:
@@ -151,7 +151,7 @@ class WholeBodyController:
         contacts = tuple(foot for foot in FEET if foot in normal_limit)
         problem = self._problems.get(contacts)
         if problem is None:
-            swing = [self.feet[foot] for foot in FEET if foot not in contacts]
+            swing = [self.foot_tasks[foot] for foot in FEET if foot not in contacts]
             problem = TickProblem(
                 self.robot,
                 contacts,
@@ -170,7 +170,7 @@ class WholeBodyController:
             return (1.0,) * len(contacts)
         x, y, z = self.dynamics.com.tolist()
         ax, ay, az = self.com.acceleration.tolist()
-        left, right = (self.dynamics.feet[foot].position.tolist() for foot in contacts)
+        left, right = (self.dynamics.soles[foot].position.tolist() for foot in contacts)
         height = z - 0.5 * (left[2] + right[2])
         lever = height / max(self._gravity + az, 0.1 * self._gravity)
         return load_shares((x - lever * ax, y - lever * ay), left, right)

@@ -353,7 +353,7 @@ def test_video_is_written_whole_or_not_at_all(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    from preview_walk.simulation import video
+    from preview_walk.viewer import video
 
     def render(record: Record, robot: Any, path: Path) -> None:
         path.write_bytes(b"half a film")

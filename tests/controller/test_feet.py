@@ -71,7 +71,7 @@ def test_a_foot_that_misses_the_ground_goes_on_down_until_it_is_there(
 ) -> None:
     lift(feet, plan)
     land = plan.steps[0].land
-    task = feet._body.feet["left"]
+    task = feet._body.foot_tasks["left"]
     feet.follow(land, plan, RIGHT_ONLY)
     assert feet["left"].contact, "due: it stands until the ground is missed"
     late = GRACE + 0.03

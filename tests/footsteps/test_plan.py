@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
-from preview_walk.footsteps.plan import SETTLE_TIME, FootstepPlan
+from preview_walk.footsteps.plan import WEIGHT_SHIFT_TIME, FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.geometry.poses import pose_at
 from preview_walk.pattern.zmp_reference import zmp_reference
@@ -87,8 +87,8 @@ def test_a_plan_needs_two_stance_soles_first():
     late = Footstep("right", right.pose, 1.0, 1.0, "stance")
     with raises("both stance footsteps must have the same time, got 0.0 s and 1.0 s."):
         FootstepPlan([left, late])
-    with raises("settle must be a time > 0 s, got 0.0."):
-        FootstepPlan([left, right], settle=0.0)
+    with raises("weight_shift must be a time > 0 s, got 0.0."):
+        FootstepPlan([left, right], weight_shift=0.0)
     assert [s.foot for s in FootstepPlan([right, left])] == ["left", "right"]
 
 
@@ -121,7 +121,7 @@ def test_a_plan_out_of_order_is_refused(steps, sentence):
 
 def test_a_foot_may_go_twice_after_a_stand():
     first = step("left", 1.0, 1.5)
-    plan = FootstepPlan([*standing(), first, step("left", 1.5 + 2 * SETTLE_TIME, 3.0)])
+    plan = FootstepPlan([*standing(), first, step("left", 1.5 + 2 * WEIGHT_SHIFT_TIME, 3.0)])
     assert [s.foot for s in plan.steps] == ["left", "left"]
 
 
@@ -203,7 +203,7 @@ def test_a_plan_moves_as_one():
 def test_a_plan_is_a_sequence():
     assert len(PLAN) == 10
     assert PLAN[2:] == PLAN.steps
-    assert PLAN[-1].land + PLAN.settle == PLAN.end
+    assert PLAN[-1].land + PLAN.weight_shift == PLAN.end
     assert [other(s.foot) for s in PLAN.steps[:-1]] == [s.foot for s in PLAN.steps[1:]]
     assert repr(standing()) == "FootstepPlan(0 steps, 0.000 s to 0.000 s)"
     assert standing().end == 0.0

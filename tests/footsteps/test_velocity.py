@@ -147,7 +147,7 @@ def test_starts_again_after_a_stop_with_the_foot_on_the_side_it_goes_to():
         again = follow_velocity(walk, walk.end - 0.1, (0.0, vy, 0.0), LIMITS)
         first = again.steps[len(walk.steps)]
         assert first.foot == foot
-        assert first.lift - walk[-1].land >= 2 * walk.settle - 1e-9
+        assert first.lift - walk[-1].land >= 2 * walk.weight_shift - 1e-9
 
 
 def test_stops_within_a_few_steps():

@@ -147,7 +147,8 @@ def test_is_the_same_anywhere_in_any_direction_at_any_time() -> None:
     assert away.zmp == pytest.approx(home.zmp @ by[:2, :2].T + by[:2, 3], abs=1e-6)
     assert away.ground == pytest.approx(home.ground + 0.7)
     later = FootstepPlan(
-        [type(s)(s.foot, s.pose, s.lift + 64.0, s.land + 64.0, s.type) for s in plan], plan.settle
+        [type(s)(s.foot, s.pose, s.lift + 64.0, s.land + 64.0, s.type) for s in plan],
+        plan.weight_shift,
     )
     assert motion(pattern_of(later), times_of(later)).com == pytest.approx(home.com, abs=1e-9)
 
@@ -158,7 +159,7 @@ def test_an_equal_plan_changes_nothing(plan: FootstepPlan) -> None:
     pattern, com = pattern_of(plan), []
     for k, t in enumerate(times_of(plan)):
         if k % 411 == 100:
-            pattern.plan = FootstepPlan(list(plan), plan.settle)
+            pattern.plan = FootstepPlan(list(plan), plan.weight_shift)
         com.append(pattern.at(t).com)
     assert np.array(com) == pytest.approx(whole.com, abs=1e-9)
 

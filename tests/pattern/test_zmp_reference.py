@@ -30,7 +30,7 @@ def tilted(plan, rng):
     for s in plan:
         z, pitch, roll = rng.uniform(-1.0, 1.0, 3) * (0.15, 0.3, 0.3)
         steps.append(replace(s, pose=s.pose @ pose_at(0.0, 0.0, 0.0, z, pitch, roll)))
-    return FootstepPlan(steps, plan.settle)
+    return FootstepPlan(steps, plan.weight_shift)
 
 
 @st.composite
@@ -145,7 +145,7 @@ def test_a_stand_is_rested_at_midfeet():
     plan = planner.walk([Stride(0.2), Stride()], planner.generate_footsteps(4))
     pause = plan.steps[3].land, plan.steps[4].lift
     ref = zmp_reference(plan)
-    rest = np.linspace(pause[0] + plan.settle, pause[1] - plan.settle, 5)
+    rest = np.linspace(pause[0] + plan.weight_shift, pause[1] - plan.weight_shift, 5)
     assert np.allclose(ref.at(rest), [[0.6, 0.0]] * 5)
     assert np.allclose(ref.velocity(rest), 0.0)
 

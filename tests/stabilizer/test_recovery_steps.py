@@ -16,10 +16,10 @@ from preview_walk.geometry.support import Sole
 from preview_walk.stabilizer.recovery_steps import (
     SHORT_PAUSE,
     UNLOAD,
-    hastened,
-    landed_at,
-    stepped_out,
-    waiting,
+    keep_standing,
+    land_at,
+    step_out,
+    step_sooner,
 )
 
 SOLE = Sole(0.1, 0.06)
@@ -36,7 +36,7 @@ def stand() -> FootstepPlan:
 
 
 def out(plan: FootstepPlan, t: float, dcm: tuple[float, float]) -> FootstepPlan | None:
-    return stepped_out(plan, t, np.array(dcm), SOLE, GAIT, OMEGA, SWING_TIME)
+    return step_out(plan, t, np.array(dcm), SOLE, GAIT, OMEGA, SWING_TIME)
 
 
 def test_a_step_that_lands_elsewhere_takes_the_later_ones_along():
@@ -44,7 +44,7 @@ def test_a_step_that_lands_elsewhere_takes_the_later_ones_along():
     step = plan.steps[1]
     t = 0.5 * (step.lift + step.land)
     pose = pose_at(step.pos[0] + 0.1, step.pos[1] - 0.05, 0.0)
-    new = landed_at(plan, t, pose, step.land - 0.1)
+    new = land_at(plan, t, pose, step.land - 0.1)
     assert new.steps[0] is plan.steps[0]
     assert new.steps[1].land == step.land - 0.1
     for before, after in zip(plan.steps[1:], new.steps[1:], strict=True):
@@ -57,12 +57,12 @@ def test_a_step_that_lands_elsewhere_takes_the_later_ones_along():
 def test_a_lift_is_hastened_only_in_a_walk_and_only_once():
     plan = walk()
     t = plan.steps[0].land + 0.01
-    sooner = hastened(plan, t)
+    sooner = step_sooner(plan, t)
     assert sooner is not None
     assert sooner.steps[1].lift == pytest.approx(max(t + UNLOAD, plan.steps[0].land + SHORT_PAUSE))
-    assert hastened(sooner, t) is None
-    assert hastened(stand(), 1.0) is None
-    assert hastened(plan, plan.end) is None
+    assert step_sooner(sooner, t) is None
+    assert step_sooner(stand(), 1.0) is None
+    assert step_sooner(plan, plan.end) is None
 
 
 def test_a_foot_waits_while_the_dcm_is_beyond_the_other_one():
@@ -74,12 +74,12 @@ def test_a_foot_waits_while_the_dcm_is_beyond_the_other_one():
     aside = np.array((0.0, side * 0.02))
     beyond = stance.pos[:2] + aside
     within = stance.pos[:2] - aside
-    later = waiting(plan, t, beyond)
+    later = keep_standing(plan, t, beyond)
     assert later is not None
     assert later.steps[1].lift == pytest.approx(t + 2.0 * UNLOAD)
-    assert waiting(plan, following.lift - 0.15, beyond) is not None
-    assert waiting(plan, t, within) is None
-    assert waiting(stand(), t, beyond) is None
+    assert keep_standing(plan, following.lift - 0.15, beyond) is not None
+    assert keep_standing(plan, t, within) is None
+    assert keep_standing(stand(), t, beyond) is None
 
 
 @pytest.mark.parametrize("dcm", [(0.0, 0.0), (0.09, 0.0), (-0.09, 0.15), (0.0, -0.15)])
@@ -124,7 +124,7 @@ def test_a_foot_that_just_landed_steps_again_where_the_other_would_have_to_cross
     side = 1.0 if stance.foot == "left" else -1.0
     t = stance.land + 0.001
     dcm = stance.pos[:2] + np.array((-0.05, side * 0.07))
-    new = stepped_out(plan, t, dcm, SOLE, GAIT, OMEGA, 0.25)
+    new = step_out(plan, t, dcm, SOLE, GAIT, OMEGA, 0.25)
     assert new is not None
     again = new.steps[1]
     assert again.foot == stance.foot
@@ -146,7 +146,7 @@ def test_a_dcm_that_ends_between_the_feet_is_caught_by_the_foot_that_is_next(sid
     x, y = step.pos[:2].tolist()
     dcm = np.array((x - 1.1 * SOLE.half_length, y + 0.9 * side * SOLE.half_width))
     wide = replace(GAIT, max_width=0.7)  # the foot that landed could well catch it too
-    new = stepped_out(plan, t, dcm, SOLE, wide, OMEGA, SWING_TIME)
+    new = step_out(plan, t, dcm, SOLE, wide, OMEGA, SWING_TIME)
     assert new is not None
     ahead = [s for s in new.steps if s.lift > t]
     assert ahead[0].foot == following.foot

@@ -33,7 +33,7 @@ LIMITS = StepLimits(
     zmp=(0.095, 0.057),
     swing_time=(0.33, 1.0),
     swing_speed=3.7,
-    swing_pull=25.0,
+    swing_acceleration=25.0,
     tolerance=0.026,
 )
 
@@ -167,7 +167,7 @@ def test_left_and_right_are_mirror_images():
     def mirrored(s: Footstep) -> Footstep:
         return replace(s, foot=other(s.foot), pose=pose_at(*(s.pos * flip)[:2].tolist(), 0.0))
 
-    twin = FootstepPlan([mirrored(s) for s in plan], plan.settle)
+    twin = FootstepPlan([mirrored(s) for s in plan], plan.weight_shift)
     dcm = planned(plan, step, t)
     error, here, speed = np.array((0.05, 0.09)), step.pos, np.array((0.4, 0.0, 0.0))
     new = adapt_step(plan, t, dcm[0] + error, dcm, (here, speed), step, LIMITS)

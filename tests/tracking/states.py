@@ -42,8 +42,8 @@ def busy_problem(robot: Robot, seed: int, *feet: Foot) -> TickProblem:
     body.update(q, 0.1 * v)
     rng = np.random.default_rng(seed)
     body.com.acceleration = 3.0 * rng.standard_normal(3)
-    for foot, task in body.feet.items():
+    for foot, task in body.foot_tasks.items():
         task.pose = np.eye(4)
-        task.pose[:3, 3] = body.dynamics.feet[foot].position + 0.05
+        task.pose[:3, 3] = body.dynamics.soles[foot].position + 0.05
         task.acceleration = 5.0 * rng.standard_normal(6)
     return body.problem(full_load(robot, *feet))

@@ -41,7 +41,7 @@ def test_com_jacobian_and_drift_by_finite_differences(robot: Robot, seed: int) -
 
 
 def terms_of(dynamics: Dynamics, name: str) -> FrameTerms:
-    return dynamics.torso if name == "torso" else dynamics.feet[name]  # type: ignore[index]
+    return dynamics.torso if name == "torso" else dynamics.soles[name]  # type: ignore[index]
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -98,13 +98,13 @@ def test_mass_and_bias_are_those_of_inverse_dynamics(robot: Robot, seed: int) ->
 
 def test_terms_follow_every_update(talos: Robot) -> None:
     dynamics = Dynamics(talos)
-    foot, com, mass = dynamics.feet["left"], dynamics.com, dynamics.mass
+    foot, com, mass = dynamics.soles["left"], dynamics.com, dynamics.mass
     for seed in range(3):
         q, v = random_state(talos, seed)
         dynamics.update(q, v)
         fresh = at(talos, q, v)
-        np.testing.assert_array_equal(foot.position, fresh.feet["left"].position)
-        np.testing.assert_array_equal(foot.rotation, fresh.feet["left"].rotation)
+        np.testing.assert_array_equal(foot.position, fresh.soles["left"].position)
+        np.testing.assert_array_equal(foot.rotation, fresh.soles["left"].rotation)
         np.testing.assert_array_equal(com, fresh.com)
         np.testing.assert_array_equal(mass, fresh.mass)
 

@@ -46,12 +46,12 @@ def test_a_foot_settles_on_its_pose(robot: Robot) -> None:
     q, v = random_state(robot, 1, 0.05)
     start = Dynamics(robot)
     start.update(q, v)
-    foot = start.feet["left"]
+    foot = start.soles["left"]
     turn = pin.exp3(np.array([0.1, -0.2, 0.15]))
     task.pose = np.eye(4)
     task.pose[:3, :3] = turn @ foot.rotation
     task.pose[:3, 3] = foot.position + 0.05
-    end = follow(robot, task, q, 0.1 * v, 0.6).feet["left"]
+    end = follow(robot, task, q, 0.1 * v, 0.6).soles["left"]
     np.testing.assert_allclose(end.position, task.pose[:3, 3], atol=1e-3)
     np.testing.assert_allclose(end.rotation, task.pose[:3, :3], atol=2e-3)
     np.testing.assert_allclose(end.velocity, 0.0, atol=1e-2)
@@ -62,7 +62,7 @@ def test_a_foot_on_its_reference_takes_over_the_reference_acceleration(talos: Ro
     q, v = random_state(talos, 2)
     dynamics = Dynamics(talos)
     dynamics.update(q, v)
-    foot = dynamics.feet["right"]
+    foot = dynamics.soles["right"]
     task.pose = np.eye(4)
     task.pose[:3, :3], task.pose[:3, 3] = foot.rotation, foot.position
     task.velocity = np.concatenate(

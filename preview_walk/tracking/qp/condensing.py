@@ -1,15 +1,16 @@
 """The tick's QP without its accelerations: exact, and a fifth of the size.
 
-All rows of the QP that bind the accelerations a read `rows @ a = target + map @ w`, each with an
-inverse weight `slack`, where w holds the wrenches f and, for each joint limit that is *watched*,
-the value u that this torque or acceleration takes. For any w the best a follows from
+All rows of the QP that bind the accelerations a read `rows @ a = target + map @ w`, each with its
+inverse weight, where w holds the wrenches f and, for each joint limit of the *working set*, the
+value u that this torque or acceleration takes. For any w the best a follows from
 
-    K = rows D^-1 rows^T + slack = L L^T,    a = prior + D^-1 rows^T K^-1 (residual + map w)
+    K = rows D^-1 rows^T + inverse weights = L L^T,    a = a0 + D^-1 rows^T K^-1 (residual + map w)
 
-(D: prior weights; residual = target - rows @ prior), and the cost that is left is
-|L^-1 (residual + map w)|^2 / 2 + wrench weight |f|^2 / 2. Only the last rows (base and watched
-limits) have a map, so L's last corner alone makes the Hessian in w. Base rows have no slack: any w,
-even a poor one, comes with accelerations that obey Newton and Euler to machine precision.
+(D: regularisation weights; residual = target - rows @ a0, a0 what the regularisation draws to), and
+the cost that is left is |L^-1 (residual + map w)|^2 / 2 + wrench weight |f|^2 / 2. Only the last
+rows (base and working set) have a map, so L's last corner alone makes the Hessian in w. Base rows
+have no inverse weight: any w, even a poor one, comes with accelerations that obey Newton and Euler
+to machine precision.
 
 Joint limits are rarely reached, so they enter only once they have been: the solution without a
 limit that it obeys is the solution with it.
@@ -34,38 +35,38 @@ class NotSolvable(ArithmeticError):
     """The values of a problem are not finite, or its rows contradict each other."""
 
 
-class Elimination:
-    """The QP in w = [f; u] of a `TickProblem`, for a fixed list of watched limits.
+class CondensedQP:
+    """The QP in w = [f; u] of a `TickProblem`, for a fixed working set of limits.
 
         minimise |factor^T w|^2 / 2 + gradient @ w  subject to  low <= constraints @ w <= high
 
-    `watched` are columns of `TickProblem.limits`: torques first, then accelerations.
+    `working_set` are columns of `TickProblem.limits`: torques first, then accelerations.
     `factor` (lower triangular) and `gradient` are valid after `reduce`; `acceleration` (nv,) and
     `torques` (n,) after `expand`.
     """
 
-    def __init__(self, problem: TickProblem, watched: Sequence[int]) -> None:
+    def __init__(self, problem: TickProblem, working_set: Sequence[int]) -> None:
         self.problem = problem
-        self.watched = tuple(watched)
-        p, k = problem, len(self.watched)
-        self._indices = np.array(self.watched, dtype=int)
+        self.working_set = tuple(working_set)
+        p, k = problem, len(self.working_set)
+        self._indices = np.array(self.working_set, dtype=int)
         self.size = p.nf + k
         self._tail = 6 + k
         m = p.m + k
-        scale = 1.0 / np.sqrt(p.prior_weight)
+        scale = 1.0 / np.sqrt(p.regularization_weight)
         self._scale = scale
         self._rows = np.zeros((m, p.nv))
         self._scaled = np.zeros((m, p.nv))
         self._residual = np.zeros(m)
-        self._slack = np.zeros(m)
+        self._inverse_weight = np.zeros(m)
         self._matrix = np.zeros((m, m))
         self._diagonal = self._matrix.reshape(-1)[:: m + 1]
         self._map = np.zeros((self._tail, self.size), order="F")
-        for at, i in enumerate(self.watched):
+        for at, i in enumerate(self.working_set):
             self._map[6 + at, p.nf + at] = 1.0
             if i >= p.n:
                 self._rows[p.m + at, 6 + i - p.n] = 1.0
-                self._slack[p.m + at] = 1.0 / LIMIT_WEIGHT
+                self._inverse_weight[p.m + at] = 1.0 / LIMIT_WEIGHT
         self.constraints = np.zeros((len(p.contact_rows) + k, self.size))
         self.constraints[: len(p.contact_rows), : p.nf] = p.contact_rows
         self.constraints[len(p.contact_rows) :, p.nf :] = np.eye(k)
@@ -87,14 +88,14 @@ class Elimination:
         rows, residual = self._rows, self._residual
         rows[:m] = p.rows
         residual[:m] = p.target
-        self._slack[:m] = p.slack
+        self._inverse_weight[:m] = p.inverse_weight
         self._map[:6, : p.nf] = p.wrench_map
-        if self.watched:
-            self._reduce_watched()
-        residual -= rows @ p.prior
+        if self.working_set:
+            self._reduce_working_set()
+        residual -= rows @ p.regularization_target
         np.multiply(rows, self._scale, out=self._scaled)
         np.matmul(self._scaled, self._scaled.T, out=self._matrix)
-        self._diagonal += self._slack
+        self._diagonal += self._inverse_weight
         self._lower = _cholesky(self._matrix)
         self._solved = dtrsv(self._lower, residual, lower=1)
         corner = self._lower[-self._tail :, -self._tail :]
@@ -106,10 +107,10 @@ class Elimination:
         self.gradient = self._solved[-self._tail :] @ self._response
         self.high[: len(p.contact_high)] = p.contact_high
 
-    def _reduce_watched(self) -> None:
-        """Write the rows, map and bounds of the watched limits."""
+    def _reduce_working_set(self) -> None:
+        """Write the rows, map and bounds of the limits of the working set."""
         p, at = self.problem, self.problem.m
-        for i, limit in enumerate(self.watched):
+        for i, limit in enumerate(self.working_set):
             if limit < p.n:
                 dof = 6 + limit
                 self._rows[at + i, :dof] = p.mass[:dof, dof]
@@ -142,13 +143,13 @@ class Elimination:
         multipliers = dtrsv(self._lower, solved, lower=1, trans=1)
         acceleration = multipliers @ self._scaled
         acceleration *= self._scale
-        acceleration += p.prior
+        acceleration += p.regularization_target
         self.acceleration = acceleration
         self._values[: p.n] = p.forces(acceleration, w[: p.nf])[6:]
         self._values[p.n :] = acceleration[6:]
 
     def crossed(self) -> list[int]:
-        """Return the limits that the expanded solution crosses and that are not watched yet.
+        """Return the limits that the expanded solution crosses and that the working set lacks.
 
         Raises `NotSolvable` when the solution is not finite.
         """
@@ -160,7 +161,7 @@ class Elimination:
         if not worst < np.inf:
             raise NotSolvable("the solution is not finite")
         over = np.flatnonzero(excess.max(axis=0) > TOLERANCE)
-        return [i for i in over.tolist() if i not in self.watched]
+        return [i for i in over.tolist() if i not in self.working_set]
 
 
 def inverse_factor(factor: Array) -> Array:

@@ -16,7 +16,7 @@ import osqp
 import scipy.sparse as sparse
 
 from preview_walk.tracking.qp.active_set import nearest_point
-from preview_walk.tracking.qp.condensing import Elimination, inverse_factor
+from preview_walk.tracking.qp.condensing import CondensedQP, inverse_factor
 from preview_walk.types import Array
 
 INFINITY = osqp.constant("OSQP_INFTY")
@@ -39,12 +39,12 @@ SETTINGS = {
 
 
 class OsqpWorkspace:
-    """A persistent OSQP solver for one `Elimination`; only values change between solves.
+    """A persistent OSQP solver for one `CondensedQP`; only values change between solves.
 
     `iterations`: those of the last solve.
     """
 
-    def __init__(self, elimination: Elimination, max_iterations: int) -> None:
+    def __init__(self, elimination: CondensedQP, max_iterations: int) -> None:
         self.elimination = elimination
         self.iterations = 0
         rows, size = elimination.constraints.shape

@@ -60,11 +60,11 @@ WRENCH_UNIT = np.array([100.0, 100.0, 100.0, 10.0, 10.0, 10.0])
 class TickProblem:
     """The QP of one tick for a set of contacts and tasks; `fill` writes the current state.
 
-    - `rows` (m, nv), `target` (m,), `slack` (m,): rows @ a = target, each at the inverse weight
-      `slack`, in the order tasks, contacts, base; slack 0 is an equality. The base's rows
-      (last six) have `wrench_map` (6, nf) @ f on their right-hand side.
+    - `rows` (m, nv), `target` (m,), `inverse_weight` (m,): rows @ a = target with these
+      inverse weights (0: an equality), in the order tasks, contacts, base. The base's rows (last
+      six) have `wrench_map` (6, nf) @ f on their right-hand side.
     - `contact_jacobian` (nf, nv): those of the rows that are the contacts'.
-    - `prior` (nv,), `prior_weight` (nv,): the accelerations drawn to, the posture's.
+    - `regularization_target`, `regularization_weight` (nv,): the accelerations drawn to, the posture's.
     - `wrench_weight` (nf,) per N^2 or (N·m)^2.
     - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
     - `limits` (2, 2 n): lowest and highest values of the joints' torques and, beside them, of
@@ -91,21 +91,23 @@ class TickProblem:
 
         self.rows: Array = np.zeros((self.m, nv))
         self.target: Array = np.zeros(self.m)
-        self.slack: Array = np.zeros(self.m)
-        self.slack[ny : ny + self.nf] = np.tile(1.0 / _CONTACT_WEIGHTS, len(self.contacts))
+        self.inverse_weight: Array = np.zeros(self.m)
+        self.inverse_weight[ny : ny + self.nf] = np.tile(1.0 / _CONTACT_WEIGHTS, len(self.contacts))
         self._task_rows = []
         at = 0
         for task in tasks:
             span = slice(at, at + task.rows)
-            self._task_rows.append((task, self.rows[span], self.target[span], self.slack[span]))
+            self._task_rows.append(
+                (task, self.rows[span], self.target[span], self.inverse_weight[span])
+            )
             at += task.rows
         self.contact_jacobian = self.rows[ny : ny + self.nf]
         self._contact_target = self.target[ny : ny + self.nf]
         self._base_rows, self._base_target = self.rows[-6:], self.target[-6:]
         self.wrench_map = self.contact_jacobian[:, :6].T
 
-        self.prior: Array = np.zeros(nv)
-        self.prior_weight = np.concatenate([np.full(6, BASE_WEIGHT), posture.weight])
+        self.regularization_target: Array = np.zeros(nv)
+        self.regularization_weight = np.concatenate([np.full(6, BASE_WEIGHT), posture.weight])
         self.unit = np.tile(WRENCH_UNIT, len(self.contacts))
         self._wrench_weight = wrench_weight / self.unit**2
         self.wrench_weight = self._wrench_weight.copy()
@@ -134,11 +136,11 @@ class TickProblem:
         `sink` (m/s): how fast a contact goes down, for those that have left the ground.
         """
         self.mass, self.bias = dynamics.mass, dynamics.bias
-        for task, jacobian, target, slack in self._task_rows:
+        for task, jacobian, target, inverse_weight in self._task_rows:
             task.update(dynamics, jacobian, target)
-            slack[:] = 1.0 / task.weight
+            inverse_weight[:] = 1.0 / task.weight
         for k, foot in enumerate(self.contacts):
-            terms, span = dynamics.feet[foot], slice(6 * k, 6 * k + 6)
+            terms, span = dynamics.soles[foot], slice(6 * k, 6 * k + 6)
             self.contact_jacobian[span] = terms.jacobian
             wanted = self._contact_target[span]
             np.multiply(terms.velocity, -BRAKE, out=wanted)
@@ -149,7 +151,7 @@ class TickProblem:
             np.divide(self._wrench_weight[span], shares[k], out=self.wrench_weight[span])
         self._base_rows[:] = dynamics.mass[:6]
         np.negative(dynamics.bias[:6], out=self._base_target)
-        self.posture.target(dynamics, self.prior[6:])
+        self.posture.target(dynamics, self.regularization_target[6:])
         self._fill_limits(dynamics.q[7:], dynamics.v[6:])
 
     def _fill_limits(self, q: Array, v: Array) -> None:
@@ -184,15 +186,21 @@ class TickProblem:
         nv, nf, n, unit = self.nv, self.nf, self.n, 100.0
         size = nv + nf + n
         free = slice(0, self.m - 6)
-        weighted = self.rows[free].T / self.slack[free]
+        weighted = self.rows[free].T / self.inverse_weight[free]
         P = np.diag(
             np.concatenate(
-                [self.prior_weight, self.wrench_weight * self.unit**2, np.full(n, LIMIT_WEIGHT)]
+                [
+                    self.regularization_weight,
+                    self.wrench_weight * self.unit**2,
+                    np.full(n, LIMIT_WEIGHT),
+                ]
             )
         )
         P[:nv, :nv] += weighted @ self.rows[free]
         q = np.zeros(size)
-        q[:nv] = -self.prior_weight * self.prior - weighted @ self.target[free]
+        q[:nv] = (
+            -self.regularization_weight * self.regularization_target - weighted @ self.target[free]
+        )
 
         mass = np.triu(self.mass)
         dynamics = np.zeros((nv, size))

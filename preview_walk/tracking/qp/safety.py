@@ -113,7 +113,7 @@ class Fallback:
         if self._held is None:
             self._held = q.copy()
         contacts = problem.contacts if self._last is None else self._last[0].contacts
-        soles = [dynamics.feet[foot] for foot in contacts]
+        soles = [dynamics.soles[foot] for foot in contacts]
         jacobian = np.vstack([np.zeros((0, problem.nv)), *(sole.jacobian for sole in soles)])
         stay = np.concatenate([[], *(-sole.drift - BRAKE * sole.velocity for sole in soles)])
         weights = np.concatenate([np.full(6, BASE_WEIGHT), np.ones(problem.n)])

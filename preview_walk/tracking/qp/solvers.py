@@ -10,7 +10,7 @@ import numpy as np
 import qpsolvers
 
 from preview_walk.errors import InvalidInput
-from preview_walk.tracking.qp.condensing import Elimination
+from preview_walk.tracking.qp.condensing import CondensedQP
 from preview_walk.tracking.qp.osqp_workspace import OsqpWorkspace
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.types import Array
@@ -25,10 +25,10 @@ ROUNDS = 8
 """How often a tick may be solved again because its solution crossed further limits of joints."""
 
 FORGET_TICKS = 10
-"""A limit is no longer watched after so many ticks in which it was not reached."""
+"""A limit leaves the working set after so many ticks in which it was not reached."""
 
 KEEP = 32
-"""Workspaces kept, each for one set of contacts and of watched limits."""
+"""Workspaces kept, each for one set of contacts and one working set of limits."""
 
 TIGHT: Mapping[str, Mapping[str, Any]] = {
     "clarabel": {"tol_gap_abs": 1e-9, "tol_gap_rel": 0.0, "tol_feas": 1e-9},
@@ -80,15 +80,15 @@ def make_backend(name: str) -> Backend:
 class OsqpBackend:
     """The default: accelerations eliminated exactly, the rest solved by a persistent OSQP.
 
-    A limit of a joint is watched, that is a constraint of the QP, from the tick in which a solution
-    without it crosses it. Multipliers are kept by sole and by joint, so that a solve starts warm
-    also when contacts or watched limits have changed.
+    A limit of a joint joins the working set, the constraints of the QP, in the tick in which a
+    solution without it crosses it. Multipliers are kept by sole and by joint, so that a solve
+    starts warm also when contacts or the working set have changed.
     """
 
     def __init__(self, max_iterations: int = MAX_ITERATIONS) -> None:
         self.max_iterations = max_iterations
         self._workspaces: dict[tuple[TickProblem, tuple[int, ...]], OsqpWorkspace] = {}
-        self._watched: dict[int, int] = {}  # limit -> ticks since it was reached
+        self._working_set: dict[int, int] = {}  # limit -> ticks since it was reached
         self._multipliers: dict[object, Array] = {}
 
     def solve(self, problem: TickProblem) -> Solution:
@@ -119,18 +119,18 @@ class OsqpBackend:
                     True,
                     iterations,
                 )
-            self._watched.update(dict.fromkeys(crossed, 0))
+            self._working_set.update(dict.fromkeys(crossed, 0))
         return _failed(problem, iterations, "joint limits still crossed")
 
     def _workspace(self, problem: TickProblem) -> OsqpWorkspace:
-        key = (problem, tuple(sorted(self._watched)))
+        key = (problem, tuple(sorted(self._working_set)))
         if key not in self._workspaces:
             if len(self._workspaces) >= KEEP:
                 self._workspaces.clear()
-            self._workspaces[key] = OsqpWorkspace(Elimination(*key), self.max_iterations)
+            self._workspaces[key] = OsqpWorkspace(CondensedQP(*key), self.max_iterations)
         return self._workspaces[key]
 
-    def _labels(self, elimination: Elimination) -> list[tuple[object, slice]]:
+    def _labels(self, elimination: CondensedQP) -> list[tuple[object, slice]]:
         """Return what each group of constraints belongs to: a sole, then a limit each."""
         problem = elimination.problem
         count = len(problem.contact_rows)
@@ -138,10 +138,12 @@ class OsqpBackend:
         labels: list[tuple[object, slice]] = [
             (foot, slice(size * k, size * k + size)) for k, foot in enumerate(problem.contacts)
         ]
-        labels += [(i, slice(count + k, count + k + 1)) for k, i in enumerate(elimination.watched)]
+        labels += [
+            (i, slice(count + k, count + k + 1)) for k, i in enumerate(elimination.working_set)
+        ]
         return labels
 
-    def _guess(self, elimination: Elimination) -> Array:
+    def _guess(self, elimination: CondensedQP) -> Array:
         guess = np.zeros(len(elimination.constraints))
         if self._multipliers:
             for label, span in self._labels(elimination):
@@ -149,16 +151,16 @@ class OsqpBackend:
                     guess[span] = self._multipliers[label]
         return guess
 
-    def _remember(self, elimination: Elimination, multipliers: Array) -> None:
+    def _remember(self, elimination: CondensedQP, multipliers: Array) -> None:
         self._multipliers = {label: multipliers[span] for label, span in self._labels(elimination)}
 
     def _forget(self) -> None:
         """Drop the limits that have not been reached for a while."""
-        for limit, age in list(self._watched.items()):
+        for limit, age in list(self._working_set.items()):
             reached = limit in self._multipliers and self._multipliers[limit].any()
-            self._watched[limit] = 0 if reached else age + 1
-            if self._watched[limit] > FORGET_TICKS:
-                del self._watched[limit]
+            self._working_set[limit] = 0 if reached else age + 1
+            if self._working_set[limit] > FORGET_TICKS:
+                del self._working_set[limit]
 
 
 class QpsolversBackend:

@@ -5,7 +5,7 @@ import pytest
 from tracking.states import busy_problem
 
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.qp.condensing import Elimination, NotSolvable
+from preview_walk.tracking.qp.condensing import CondensedQP, NotSolvable
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.types import Array, Foot
 
@@ -31,7 +31,7 @@ def test_free_minimiser_is_that_of_the_whole_qp(
     robot: Robot, feet: tuple[Foot, ...], seed: int
 ) -> None:
     p = busy_problem(robot, seed, *feet)
-    e = Elimination(p, ())
+    e = CondensedQP(p, ())
     e.reduce()
     w = -np.linalg.solve(e.factor @ e.factor.T, e.gradient)
     e.expand(w)
@@ -41,14 +41,18 @@ def test_free_minimiser_is_that_of_the_whole_qp(
     np.testing.assert_allclose(w, wrench, atol=1e-6 * np.abs(wrench).max())
 
 
-@pytest.mark.parametrize("watched", [(), (3, 40), (0, 31, 33, 60)])
-def test_any_wrench_comes_with_consistent_dynamics(talos: Robot, watched: tuple[int, ...]) -> None:
+@pytest.mark.parametrize("working_set", [(), (3, 40), (0, 31, 33, 60)])
+def test_any_wrench_comes_with_consistent_dynamics(
+    talos: Robot, working_set: tuple[int, ...]
+) -> None:
     p = busy_problem(talos, 1)
-    e = Elimination(p, watched)
+    e = CondensedQP(p, working_set)
     e.reduce()
     rng = np.random.default_rng(0)
     for _ in range(5):
-        w = np.concatenate([200.0 * rng.standard_normal(p.nf), rng.standard_normal(len(watched))])
+        w = np.concatenate(
+            [200.0 * rng.standard_normal(p.nf), rng.standard_normal(len(working_set))]
+        )
         e.expand(w)
         residual = p.forces(e.acceleration, w[: p.nf])[:6]
         # Wild wrenches ask for accelerations of 1e4 rad/s^2: the bound is to the forces at play.
@@ -58,17 +62,17 @@ def test_any_wrench_comes_with_consistent_dynamics(talos: Robot, watched: tuple[
 
 def test_watched_torques_take_their_values(talos: Robot) -> None:
     p = busy_problem(talos, 2)
-    watched = (2, 17, 30)
-    e = Elimination(p, watched)
+    working_set = (2, 17, 30)
+    e = CondensedQP(p, working_set)
     e.reduce()
     u = np.array([5.0, -12.0, 40.0])
     e.expand(np.concatenate([np.zeros(p.nf), u]))
-    np.testing.assert_allclose(e.torques[list(watched)], u, atol=1e-5)
+    np.testing.assert_allclose(e.torques[list(working_set)], u, atol=1e-5)
 
 
 def test_watching_a_limit_that_is_not_reached_changes_nothing(talos: Robot) -> None:
     p = busy_problem(talos, 3)
-    free, watching = Elimination(p, ()), Elimination(p, (5, 20, 50))
+    free, watching = CondensedQP(p, ()), CondensedQP(p, (5, 20, 50))
     for e in (free, watching):
         e.reduce()
         e.expand(-np.linalg.solve(e.factor @ e.factor.T, e.gradient))
@@ -77,7 +81,7 @@ def test_watching_a_limit_that_is_not_reached_changes_nothing(talos: Robot) -> N
 
 def test_the_remaining_cost_is_that_of_the_whole_qp(talos: Robot) -> None:
     p = busy_problem(talos, 4)
-    e = Elimination(p, ())
+    e = CondensedQP(p, ())
     e.reduce()
     qp: Any = p.build()
 
@@ -100,12 +104,12 @@ def test_the_remaining_cost_is_that_of_the_whole_qp(talos: Robot) -> None:
 def test_values_that_are_not_finite(talos: Robot, part: str) -> None:
     p = busy_problem(talos, 5)
     getattr(p, part)[0] = np.nan
-    e = Elimination(p, ())
+    e = CondensedQP(p, ())
     with pytest.raises(NotSolvable, match="are not finite"):
         solve_free(e)
 
 
-def solve_free(e: Elimination) -> None:
+def solve_free(e: CondensedQP) -> None:
     e.reduce()
     e.free()
 
@@ -113,4 +117,4 @@ def solve_free(e: Elimination) -> None:
 def test_in_the_air_there_is_nothing_left_to_solve(talos: Robot) -> None:
     p = busy_problem(talos, 6)
     air = TickProblem(talos, (), p.tasks, p.posture, 1e-3, 0.8)
-    assert Elimination(air, ()).size == 0
+    assert CondensedQP(air, ()).size == 0

@@ -4,13 +4,13 @@ import pytest
 from tracking.states import busy_problem
 
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.qp.condensing import Elimination, inverse_factor
+from preview_walk.tracking.qp.condensing import CondensedQP, inverse_factor
 from preview_walk.tracking.qp.osqp_workspace import OsqpWorkspace
 from preview_walk.tracking.qp.solvers import OsqpBackend
 from preview_walk.types import Array
 
 
-def exact(e: Elimination) -> Array:
+def exact(e: CondensedQP) -> Array:
     """Return w by daqp on the same small QP."""
     w, _, flag, _ = daqp.solve(
         e.factor @ e.factor.T,
@@ -31,7 +31,7 @@ def test_agrees_with_daqp_whether_or_not_osqp_converges(robot: Robot, iterations
     for seed in range(5):
         p = busy_problem(robot, seed)
         p.contact_high[16] = 0.05 * 9.81 * robot.mass  # a foot just landed
-        e = Elimination(p, ())
+        e = CondensedQP(p, ())
         e.reduce()
         workspace = OsqpWorkspace(e, iterations)
         found = workspace.solve(np.zeros(len(e.constraints)))
@@ -44,7 +44,7 @@ def test_agrees_with_daqp_whether_or_not_osqp_converges(robot: Robot, iterations
 def test_warm_start_with_the_own_multipliers_needs_the_fewest_iterations(talos: Robot) -> None:
     p = busy_problem(talos, 1)
     p.contact_high[16] = 0.05 * 9.81 * talos.mass
-    e = Elimination(p, ())
+    e = CondensedQP(p, ())
     e.reduce()
     workspace = OsqpWorkspace(e, 1000)
     first = workspace.solve(np.zeros(len(e.constraints)))
@@ -57,7 +57,7 @@ def test_warm_start_with_the_own_multipliers_needs_the_fewest_iterations(talos: 
 
 
 def test_variables_make_the_hessian_the_identity(talos: Robot) -> None:
-    e = Elimination(busy_problem(talos, 2), ())
+    e = CondensedQP(busy_problem(talos, 2), ())
     e.reduce()
     inverse = inverse_factor(e.factor)
     hessian = inverse @ (e.factor @ e.factor.T) @ inverse.T
@@ -71,7 +71,7 @@ def test_the_sparsity_never_changes(talos: Robot) -> None:
         backend.solve(p)
     used = [item for item in backend._workspaces.items() if item[1]._solver is not None]
     assert used
-    for (problem, watched), workspace in used:
+    for (problem, working_set), workspace in used:
         matrix = workspace._solver._derivative_cache["A"]
-        rows = 17 * len(problem.contacts) + len(watched)
-        assert matrix.nnz == rows * (problem.nf + len(watched))
+        rows = 17 * len(problem.contacts) + len(working_set)
+        assert matrix.nnz == rows * (problem.nf + len(working_set))

@@ -48,9 +48,9 @@ def test_build_is_the_cost_that_the_docstring_states(talos: Robot, feet: tuple[F
         weights = np.array([*3 * [CONTACT_WEIGHT], TILT_WEIGHT, TILT_WEIGHT, CONTACT_WEIGHT])
         contacts = sum(
             float(weights @ (terms.jacobian @ a + terms.drift + BRAKE * terms.velocity) ** 2)
-            for terms in (body.dynamics.feet[foot] for foot in feet)
+            for terms in (body.dynamics.soles[foot] for foot in feet)
         )
-        prior = float(p.prior_weight @ (a - p.prior) ** 2)
+        prior = float(p.regularization_weight @ (a - p.regularization_target) ** 2)
         wrenches = float(p.wrench_weight @ f**2)
         return 0.5 * (tasks + contacts + prior + wrenches + LIMIT_WEIGHT * float(e @ e))
 
@@ -132,7 +132,7 @@ def test_a_contact_that_sinks_comes_to_its_speed(talos: Robot) -> None:
     body.sink["left"] = 0.05
     body.torques(full_load(talos, "right") | {"left": 0.0})
     assert body.solution is not None
-    down = body.dynamics.feet["left"].jacobian @ body.solution.acceleration
+    down = body.dynamics.soles["left"].jacobian @ body.solution.acceleration
     np.testing.assert_allclose(down[:3], [0.0, 0.0, -0.05 * BRAKE], atol=1e-3)
     np.testing.assert_allclose(down[3:], 0.0, atol=0.05)
 
@@ -148,14 +148,14 @@ def test_a_sole_that_tips_over_its_edge_is_let() -> None:
     q[hip + 1] = -q[ankle + 1]
     body.update(q, v)
     # The pelvis goes sideways, the ankle stays, and the sole's centre too: the sole tilts instead.
-    jacobian = body.dynamics.feet["right"].jacobian
+    jacobian = body.dynamics.soles["right"].jacobian
     moving = jacobian[:, legs].copy()
     moving[:, legs.index(ankle)] = [0.0, 0.0, 0.0, -1.0, 0.0, 0.0]
     v[1], v[legs] = 1.5, np.linalg.solve(moving, -1.5 * jacobian[:, 1])
     tilting, v[ankle] = v[ankle], 0.0
     body.update(q, v)
     np.testing.assert_allclose(
-        body.dynamics.feet["right"].velocity, [0.0, 0.0, 0.0, tilting, 0.0, 0.0], atol=1e-9
+        body.dynamics.soles["right"].velocity, [0.0, 0.0, 0.0, tilting, 0.0, 0.0], atol=1e-9
     )
     body.com.acceleration = np.array([0.0, -2.5, 0.0])
     body.torques(full_load(g1, "right"))

@@ -26,8 +26,8 @@ def test_any_backend_of_qpsolvers_finds_the_same_torques(
     limits = dict.fromkeys(feet, 20.0 * robot.mass)
     if not feet:
         body.com.acceleration = np.array([0.0, 0.0, -9.81])
-    for foot, task in body.feet.items():
-        terms = body.dynamics.feet[foot]
+    for foot, task in body.foot_tasks.items():
+        terms = body.dynamics.soles[foot]
         task.pose = np.eye(4)
         task.pose[:3, :3], task.pose[:3, 3] = terms.rotation, terms.position
     p = body.problem(limits)
@@ -52,18 +52,18 @@ def test_busy_problems_do_reach_limits(talos: Robot) -> None:
     backend = OsqpBackend()
     for seed in range(8):
         assert backend.solve(busy_problem(talos, seed)).solved
-    assert len(backend._watched) > 3
+    assert len(backend._working_set) > 3
 
 
 def test_limits_are_forgotten_when_they_are_no_longer_reached(talos: Robot) -> None:
     backend = OsqpBackend()
     for seed in range(8):
         backend.solve(busy_problem(talos, seed))
-    assert backend._watched
+    assert backend._working_set
     quiet = standing_controller(talos).problem(full_load(talos))
     for _ in range(FORGET_TICKS + 2):
         assert backend.solve(quiet).solved
-    assert not backend._watched
+    assert not backend._working_set
 
 
 def test_the_answer_does_not_depend_on_what_was_solved_before(talos: Robot) -> None:
