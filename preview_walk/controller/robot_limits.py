@@ -9,14 +9,22 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.footsteps.limits import GaitLimits
-from preview_walk.geometry.support import Sole
+from preview_walk.pattern.com_height import LegGeometry
 from preview_walk.robots.robot import Robot
 
 
 def gait_limits(robot: Robot) -> GaitLimits:
     """Return the bounds of the steps that the robot's legs can make."""
-    sole = Sole(robot.soles["left"].half_length, robot.soles["left"].half_width)
-    return GaitLimits.for_leg(robot.leg_length, robot.step_width, sole)
+    return GaitLimits.for_leg(robot.leg_length, robot.step_width, robot.sole)
+
+
+def leg_geometry(robot: Robot) -> LegGeometry:
+    """Return what the CoM's height over long steps depends on, from the walking posture."""
+    data = robot.pin.createData()
+    pin.framesForwardKinematics(robot.pin, data, robot.posture)
+    hip, sole = data.oMi[robot.legs["left"].hip], data.oMf[robot.soles["left"].frame]
+    height = hip.translation[2] - sole.translation[2]
+    return LegGeometry(robot.leg_length, float(height), robot.com_height)
 
 
 SPEED_SHARE = 0.72

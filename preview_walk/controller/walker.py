@@ -1,25 +1,36 @@
-"""The walker: pattern, feedback and contacts of one tick, from measured state to torques."""
+"""The walker: one control tick, from measured state and live plan to joint torques."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from preview_walk.controller.feet import Feet, sole_pose
+from preview_walk.controller.feet import Feet
 from preview_walk.controller.momentum_model import momentum_model
+from preview_walk.controller.robot_limits import leg_geometry
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.poses import pose_at, yaw_of
-from preview_walk.geometry.support import Sole, within_support
-from preview_walk.pattern.com_height import LegGeometry
-from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
+from preview_walk.geometry.poses import pose_at, wrap, yaw_of
+from preview_walk.geometry.support import Sole
+from preview_walk.pattern.walking_pattern import PLANNING_DT, ComReference, WalkingPattern
 from preview_walk.robots.robot import Robot
-from preview_walk.stabilizer.recovery import Recovery
-from preview_walk.tracking.dynamics import Dynamics
+from preview_walk.stabilizer.com_feedback import (
+    CentroidalState,
+    ComFeedback,
+    FeedbackGains,
+    Support,
+    com_feedback,
+)
+from preview_walk.stabilizer.disturbance import Disturbance, observe
+from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
+from preview_walk.stabilizer.situation import Situation
+from preview_walk.stabilizer.step_limits import step_limits
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 
 SWING_HEIGHT = 0.06
-"""Height of the swing foot's apex over the leg's length."""
+"""Height of the swing foot's apex over the leg's length, where none is given."""
 
 LEAN = 0.1
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
@@ -27,9 +38,18 @@ give, trunk and arms do by their angular momentum."""
 
 
 class Walker:
-    """Walks a robot along a live plan.
+    """Walks a robot along a live plan: call `tick` with the measured state, `follow` another plan.
 
-    Call `tick` with the measured state; assign `plan` at any time to change the walk.
+    Attributes:
+        robot, gains: what it was made of.
+        swing_height: of a swing's apex above the higher of its two soles, m.
+        weight: of the robot, N.
+        body: the whole-body controller; add tasks of one's own to it.
+        pattern: the walking pattern of the plan.
+        feet: which stand and which swing.
+        reference: of the CoM at the last tick.
+        feedback: what the stabilizer asked for at the last tick.
+        disturbance: what pushes the DCM, as observed.
     """
 
     def __init__(
@@ -37,103 +57,135 @@ class Walker:
         robot: Robot,
         plan: FootstepPlan,
         q: Array,
+        *,
         friction: float,
         gains: TrackingGains | None = None,
         solver: str = "osqp",
+        swing_height: float | None = None,
     ) -> None:
+        """Stand on the plan's first soles.
+
+        Args:
+            robot: from `load_robot`.
+            plan: the walk.
+            q: (nq,) configuration in which the robot stands on the plan's first soles, at rest.
+            friction: Coulomb friction between soles and ground.
+            gains: weights and gains of the tracker; None takes the defaults.
+            solver: "osqp" or another backend of qpsolvers.
+            swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
+        """
         self.robot = robot
         self.gains = TrackingGains() if gains is None else gains
         self.body = WholeBodyController(robot, self.gains, friction, solver)
         self.body.update(q, np.zeros(robot.pin.nv))
-        half = robot.soles["left"]
-        self.sole = Sole(half.half_length, half.half_width)
-        lean = LEAN * robot.leg_length
-        self._reach = Sole(half.half_length + lean, half.half_width + lean)
-        self.swing_height = SWING_HEIGHT * robot.leg_length
-        self.pattern = WalkingPattern(
-            plan,
-            self.body.dynamics.com.copy(),
-            _legs(robot, self.body.dynamics),
-            Sole(half.half_length, half.half_width),
-            momentum_model(robot),
-            self.swing_height,
+        self.swing_height = (
+            SWING_HEIGHT * robot.leg_length if swing_height is None else swing_height
         )
-        self.weight = robot.mass * 9.81
-        self.feet = Feet(self.body, plan, self.weight, self.swing_height)
-        self.recovery = Recovery(robot, self.pattern.omega)
-        self.reference: ComReference | None = None
-        self._zmp: Array = self.body.dynamics.com[:2].copy()
+        self.weight = robot.mass * robot.gravity
+        com = self.body.dynamics.com.copy()
+        legs = leg_geometry(robot)
+        self.pattern = WalkingPattern(
+            plan, com, legs, robot.sole, momentum_model(robot), self.swing_height
+        )
+        self.feet = Feet(plan, self.weight, self.swing_height)
+        self.disturbance = Disturbance()
+        self.reference: ComReference = self.pattern.at(plan.start)
+        self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
+        self._rates = FeedbackGains(self.pattern.omega, self.gains.dcm, self.gains.height)
+        lean = LEAN * robot.leg_length
+        self._reach = Sole(robot.sole.half_length + lean, robot.sole.half_width + lean)
+        self._recovery = RecoveryMemory()
+        self._limits = step_limits(
+            robot.leg_length, robot.step_width, robot.sole, self.pattern.omega
+        )
+        self._planned_until = -np.inf
 
     @property
     def plan(self) -> FootstepPlan:
         """The footsteps walked by."""
         return self.pattern.plan
 
-    @plan.setter
-    def plan(self, plan: FootstepPlan) -> None:
-        self.pattern.plan = plan
+    def follow(self, plan: FootstepPlan) -> None:
+        """Walk by another plan from now on: the one place where plans are replaced."""
+        self.pattern.follow(plan)
 
-    def tick(self, t: float, q: Array, v: Array, normal_force: dict[Foot, float]) -> Array:
-        """Return the joint torques (n,) in N·m for the state measured at time t (s).
+    def tick(self, t: float, q: Array, v: Array, normal_force: Mapping[Foot, float]) -> Array:
+        """Return the joint torques (n,) in N·m for the state measured at time t.
 
-        `q`, `v`: Pinocchio's configuration and velocity; `normal_force`: what each sole's force
-        sensor reads (N).
+        Args:
+            t: now, s; must not go back.
+            q: (nq,) configuration, Pinocchio's conventions.
+            v: (nv,) velocity, Pinocchio's conventions.
+            normal_force: what each sole's force sensor reads, N.
+
+        Raises:
+            StateError: the state is not finite.
         """
-        body = self.body
-        body.update(q, v)
-        self.recovery.answer(t, self.pattern, body.dynamics, self.feet, self._zmp)
-        early = self.feet.follow(t, self.plan, normal_force)
+        self.body.update(q, v)
+        dynamics = self.body.dynamics
+        state = CentroidalState(dynamics.com, dynamics.com_velocity)
+        if t >= self._planned_until:
+            self._planned_until = t + PLANNING_DT - 1e-9
+            self._recover(t, state)
+        soles = {foot: dynamics.soles[foot].pose for foot in FEET}
+        early = self.feet.follow(t, self.plan, soles, normal_force)
         if early is not None:
-            pose = sole_pose(body.dynamics.soles[early])
-            self.recovery.touched_down(t, early, self.pattern, pose)
-        self._track_com(t)
-        self._track_torso(t)
-        return body.torques(self.feet.normal_limits(t, self.plan))
+            plan = early_landing(self.plan, t, early, soles[early], self._recovery)
+            if plan is not None:
+                self.follow(plan)
+        self.reference = self.pattern.at(t)
+        standing = [soles[foot] for foot in self.feet.standing]
+        self.feedback = com_feedback(
+            state,
+            self.reference,
+            self.disturbance.rate,
+            Support(standing, self.robot.sole, self._reach),
+            self._rates,
+        )
+        self._set_tasks()
+        return self.body.torques(self.feet.normal_limits(t, self.plan))
 
-    def _track_com(self, t: float) -> None:
-        """Set the CoM task: the reference's acceleration and feedback of the DCM and CoM.
+    def _recover(self, t: float, state: CentroidalState) -> None:
+        """Observe what pushes the robot, and walk by another plan where recovery has one."""
+        omega = self.pattern.omega
+        dcm = state.dcm(omega)
+        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
+        situation = Situation(
+            t,
+            self.plan,
+            dcm,
+            self.disturbance.rate,
+            self.pattern.planned_dcm,
+            self._free_swing(t),
+        )
+        decision = recover(situation, self._recovery, self._limits)
+        self._recovery = decision.memory
+        if decision.plan is not None:
+            self.follow(decision.plan)
+            self.pattern.rejoin(t, state.com[:2])
 
-        The error e obeys e'' = -(omega + k) e' - omega k e: poles at -omega and at the DCM gain
-        -k (Sugihara 2009; Englsberger et al. 2015 eq. 29). What pushes the DCM is opposed as it is
-        observed, before an error has grown.
-        """
-        reference = self.reference = self.pattern.at(t)
-        dynamics, omega, k = self.body.dynamics, self.pattern.omega, self.gains.dcm
-        com, velocity = dynamics.com[:2], dynamics.com_velocity[:2]
-        error = reference.com - dynamics.com
-        rate = reference.velocity - dynamics.com_velocity
-        # The feedback's ZMP: what it asks for beyond the soles' reach they cannot give.
-        cart = reference.com[:2] - reference.acceleration[:2] / omega**2
-        away = (com + velocity / omega) - (reference.com + reference.velocity / omega)[:2]
-        zmp = cart + (1.0 + k / omega) * away + self.recovery.push / omega
-        shift = reference.zmp - cart
-        soles = [sole_pose(dynamics.soles[f]) for f in FEET if self.feet[f].contact]
-        if soles:
-            self._zmp = within_support(zmp + shift, soles, self.sole) - shift
-            zmp = within_support(zmp + shift, soles, self._reach) - shift
-        acceleration = np.zeros(3)
-        acceleration[:2] = omega**2 * (com - zmp)
-        h = self.gains.height
-        acceleration[2] = reference.acceleration[2] + 2.0 * h * rate[2] + h * h * error[2]
-        self.body.com.acceleration = acceleration
+    def _free_swing(self, t: float) -> tuple[Array, Array] | None:
+        """Return position and velocity (3,), world, of the sole that swings freely, or None."""
+        step = self.plan.swing_at(t)
+        if step is None or self.feet.states[step.foot].contact:
+            return None
+        sole = self.body.dynamics.soles[step.foot]
+        return sole.position, sole.rotation @ sole.velocity[:3]
 
-    def _track_torso(self, t: float) -> None:
-        """Set the torso task: upright, facing between the feet."""
-        left, right = (self.feet[foot].pose for foot in FEET)
-        a, b = yaw_of(left), yaw_of(right)
-        yaw = a + 0.5 * ((b - a + np.pi) % (2 * np.pi) - np.pi)
-        self.body.torso.rotation = pose_at(0.0, 0.0, yaw)[:3, :3]
-        rate = 0.0
-        for foot in FEET:
-            if not self.feet[foot].contact:
-                rate += 0.5 * self.body.foot_tasks[foot].velocity[5]
-        self.body.torso.velocity = np.array((0.0, 0.0, rate))
-
-
-def _legs(robot: Robot, dynamics: Dynamics) -> LegGeometry:
-    """Return the leg geometry of a robot standing in its walking posture."""
-    height = (
-        dynamics.data.oMi[robot.legs["left"].hip].translation[2]
-        - dynamics.soles["left"].position[2]
-    )
-    return LegGeometry(robot.leg_length, float(height), robot.com_height)
+    def _set_tasks(self) -> None:
+        """Hand feedback and targets to the tasks; the torso stays upright between the feet."""
+        body, targets = self.body, self.feet.targets
+        body.com.acceleration = self.feedback.acceleration
+        body.sink.clear()
+        turning = 0.0
+        for foot, target in targets.items():
+            task = body.foot_tasks[foot]
+            task.pose, task.velocity = target.pose, target.velocity
+            task.acceleration = target.acceleration
+            if target.sink:
+                body.sink[foot] = target.sink
+            if not target.contact:
+                turning += 0.5 * float(target.velocity[5])
+        a, b = yaw_of(targets["left"].pose), yaw_of(targets["right"].pose)
+        body.torso.rotation = pose_at(0.0, 0.0, a + 0.5 * wrap(b - a))[:3, :3]
+        body.torso.velocity = np.array((0.0, 0.0, turning))

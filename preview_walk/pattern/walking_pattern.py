@@ -1,7 +1,7 @@
 """The walking pattern: from a plan to what the robot should do at an instant.
 
 Kajita's pattern generator, kept live: footsteps give the ZMP reference, preview control the CoM,
-polynomials the swing foot. The plan may be replaced at any tick (`WalkingPattern.plan`).
+polynomials the swing foot. The plan may be replaced at any tick (`WalkingPattern.follow`).
 """
 
 from __future__ import annotations
@@ -51,7 +51,6 @@ class WalkingPattern:
     """CoM references of a live plan, by preview control at `PLANNING_DT`.
 
     Attributes:
-        plan: the footsteps; assign another one at any time.
         legs: how high the CoM can be.
         omega: natural frequency (1/s) of the pendulum, sqrt(g / height) with the cart-table's
             height (`MomentumModel.effective_height`).
@@ -80,7 +79,7 @@ class WalkingPattern:
         # A cart-table without height is a triple integrator: preview control of the height.
         self._lift = PreviewController(1e-9, PLANNING_DT, PREVIEW_TIME, r=HEIGHT_EFFORT)
         self._now_z: ComState = self._lift.initial_state((com[2], 0.0))
-        self.plan = plan
+        self.follow(plan)
         self._next, self._next_z = self._step()
 
     @property
@@ -88,8 +87,8 @@ class WalkingPattern:
         """The footsteps walked by."""
         return self._plan
 
-    @plan.setter
-    def plan(self, plan: FootstepPlan) -> None:
+    def follow(self, plan: FootstepPlan) -> None:
+        """Go on by another plan from the present planning tick; samples all that is left of it."""
         self._plan = plan
         self._zmp = zmp_reference(plan, self._sole)
         # Sampled once per plan from this tick on; a tick only slides the window along.

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import mujoco
 import pinocchio as pin
 
+from preview_walk.geometry.support import Sole
 from preview_walk.robots.building.posture import Leg
 from preview_walk.robots.finding.soles import SolePatch
 from preview_walk.robots.finding.structure import Structure
@@ -84,6 +85,16 @@ class Robot:
     legs: Mapping[Foot, Leg]
     notes: tuple[str, ...]
     blueprint: Blueprint = field(repr=False)
+
+    @property
+    def sole(self) -> Sole:
+        """Half sizes of the soles, m; both feet have the same."""
+        return Sole(self.soles["left"].half_length, self.soles["left"].half_width)
+
+    @property
+    def gravity(self) -> float:
+        """Acceleration of gravity in both models, m/s^2."""
+        return -float(self.pin.gravity.linear[2])
 
     @property
     def joint_names(self) -> tuple[str, ...]:

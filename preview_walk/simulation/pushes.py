@@ -94,38 +94,51 @@ def base_of(model: mujoco.MjModel) -> int:
 class Pusher:
     """Applies pushes to a running simulation."""
 
-    def __init__(self, model: mujoco.MjModel, pushes: Sequence[Push]) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, pushes: Sequence[Push], base: int | None = None
+    ) -> None:
+        """Find the bodies that are pushed.
+
+        Args:
+            model: the world.
+            pushes: forces on its bodies.
+            base: id of the body that a push without a body is on; None takes the one that floats.
+        """
         self._model = model
         self._pushes = []
         for push in pushes:
-            body = base_of(model)
+            body = base_of(model) if base is None else base
             if push.body is not None:
                 body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)
             if body < 0:
                 names = ", ".join(model.body(b).name for b in range(1, model.nbody))
-                raise InvalidInput(f"a push names the body '{push.body}'; the robot has {names}.")
+                raise InvalidInput(
+                    f"a push names the body '{push.body}'; the robot has {names}.", "pushes"
+                )
             self._pushes.append((push, body, np.array(push.force, dtype=float)))
-        self._idle = True
+        self._applied: Array = np.zeros(model.nv)
         self._none = np.zeros(3)
 
     def apply(self, t: float, data: mujoco.MjData) -> Array:
-        """Write the generalised forces of the pushes at time t (s); return their sum (3,) in N."""
+        """Add the generalised forces of the pushes at time t (s); return their sum (3,) in N.
+
+        What else is in `qfrc_applied` stays.
+        """
         t += ROUNDING
         active = [p for p in self._pushes if p[0].t <= t < p[0].t + p[0].duration]
+        if self._applied.any():
+            data.qfrc_applied -= self._applied
+            self._applied[:] = 0.0
         if not active:
-            if not self._idle:
-                data.qfrc_applied[:] = 0.0
-                self._idle = True
             return self._none
-        self._idle = False
-        data.qfrc_applied[:] = 0.0
         total = np.zeros(3)
         for push, body, force in active:
             at = data.xipos[body]
             if push.point is not None:
                 at = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(push.point)
             mujoco.mj_applyFT(
-                self._model, data, force, np.zeros(3), np.array(at), body, data.qfrc_applied
+                self._model, data, force, np.zeros(3), np.array(at), body, self._applied
             )
             total += force
+        data.qfrc_applied += self._applied
         return total

@@ -1,17 +1,22 @@
-"""The user's own MuJoCo model and data, sensed and driven as a robot."""
+"""The user's scene: a robot in a MuJoCo model and data of somebody else, sensed and driven."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
+import pinocchio as pin
 
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import RobotError
 from preview_walk.robots.finding.tree import Tree
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
+from preview_walk.simulation.pushes import Push, Pusher
+from preview_walk.simulation.world import FRICTION
+from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
 
 _FREE, _PLANE = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtGeom.mjGEOM_PLANE)
@@ -19,23 +24,40 @@ _JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 _CLAMP = int(mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL)
 
 
-class OwnModel:
-    """A robot in a MuJoCo model that somebody else made, with whatever else is in the scene.
-
-    - `q` (nq,), `v` (nv,): the measured state in Pinocchio's conventions, seen from the floor.
-    - `wrench[foot]` (6,): what `foot` feels of the ground, [force; moment about the world's origin]
-      on the robot in world axes, summed over MuJoCo's contacts (N, N·m).
-    - `floor`: height (m) of the floor; `friction` between it and the feet.
+class Scene:
+    """A robot in a MuJoCo model that somebody else made, with whatever else is in it; a `Plant`.
 
     Torques reach the joints through the model's own actuators: motors, or position and velocity
     servos, whose set point is chosen at every physics step such that they give the torque asked
-    for. Joint springs are made up for.
+    for. Joint springs are made up for. A sole's wrench is summed over MuJoCo's contacts.
 
-    Raises `RobotError` where the model has no floor, another gravity, or actuators or a base that
-    cannot be driven so.
+    Attributes:
+        robot, ground, friction, timestep, q, v, wrench, push: see `Plant`; the friction is that
+            between floor and feet, and not believed where it is more than `World`'s.
+        model, data: the user's; only `data` changes.
     """
 
-    def __init__(self, robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def __init__(
+        self,
+        robot: Robot,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        pushes: Sequence[Push] = (),
+    ) -> None:
+        """Find the robot and its floor in the scene.
+
+        Args:
+            robot: `load_robot(model)`.
+            model: the scene.
+            data: its state.
+            pushes: forces on bodies of the scene, in the walk's time.
+
+        Raises:
+            RobotError: the model has no floor, another gravity, or actuators or a base that cannot
+                be driven so.
+            InvalidInput: a push on an unknown body.
+        """
+        self.robot = robot
         self.model, self.data = model, data
         tree, base = Tree(model), robot.blueprint.parts.base
         root = int(model.body_jntadr[base])
@@ -51,39 +73,66 @@ class OwnModel:
         self._qpos = np.concatenate([np.arange(first, first + 7), model.jnt_qposadr[joints]])
         self._qvel = np.concatenate([np.arange(dof, dof + 6), model.jnt_dofadr[joints]])
         self._feet = _parts(robot, tree)
-        self.floor, self.friction = _floor(tree, self._feet)
+        floor, friction = _floor(tree, self._feet)
+        self.friction = min(FRICTION, friction)
+        self.ground: Ground = FlatGround(floor)
+        self.timestep = float(model.opt.timestep)
         self._gain, self._actuator = _actuators(tree, joints)
         self._driven = self._actuator >= 0
         self.q: Array = np.array(robot.posture)
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
+        self.push: Array = np.zeros(3)
+        self._pusher = Pusher(model, pushes, base)
+        self._since = 0.0  # the walk's time less the scene's own
+        self._kinematics = robot.pin.createData()
 
-    def place(self, q: Array) -> None:
-        """Stand the robot still in configuration q (nq,)."""
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out Pinocchio's workspace, which the next `sense` fills."""
+        return {name: value for name, value in vars(self).items() if name != "_kinematics"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the state and make the workspace anew."""
+        vars(self).update(state)
+        self._kinematics = self.robot.pin.createData()
+
+    def place(self, q: Array, t: float) -> None:
+        """Stand the robot still in configuration q (nq,) at time t (s) of the walk.
+
+        The scene's own clock goes on from where it is.
+        """
         qpos, qvel = np.empty_like(q), np.zeros(len(self._qvel))
         to_mujoco(q, qvel, qpos, qvel)
-        qpos[2] += self.floor
         self.data.qpos[self._qpos], self.data.qvel[self._qvel] = qpos, qvel
         mujoco.mj_forward(self.model, self.data)
+        self._since = t - float(self.data.time)
 
     def sense(self) -> None:
         """Read the state and the contacts into `q`, `v` and `wrench`."""
         to_pinocchio(self.data.qpos[self._qpos], self.data.qvel[self._qvel], self.q, self.v)
-        self.q[2] -= self.floor
-        for wrench in self.wrench.values():
-            wrench[:] = 0.0
-        felt = np.empty(6)
+        for foot, sole in self.soles().items():
+            self.wrench[foot][:] = self._felt(foot, sole[:3, 3])
+
+    def soles(self) -> dict[Foot, Array]:
+        """Return the poses (4, 4) of the soles, world, m, in the configuration last sensed."""
+        pin.framesForwardKinematics(self.robot.pin, self._kinematics, self.q)
+        frames = self._kinematics.oMf
+        return {foot: frames[self.robot.soles[foot].frame].homogeneous for foot in FEET}
+
+    def _felt(self, foot: Foot, centre: Array) -> Array:
+        """Return the wrench (6,) of all contacts of a foot about a point (3,), world axes."""
+        total, felt = np.zeros(6), np.empty(6)
         for index, contact in enumerate(self.data.contact):
             for geom, sign in ((int(contact.geom[0]), -1.0), (int(contact.geom[1]), 1.0)):
-                foot = self._feet.get(geom)
-                if foot is None:
+                if self._feet.get(geom) != foot:
                     continue
                 mujoco.mj_contactForce(self.model, self.data, index, felt)
                 # MuJoCo gives what the first geom does to the second, in the contact's axes.
                 axes = sign * contact.frame.reshape(3, 3)
                 force = felt[:3] @ axes
-                self.wrench[foot][:3] += force
-                self.wrench[foot][3:] += np.cross(contact.pos, force) + felt[3:] @ axes
+                total[:3] += force
+                total[3:] += np.cross(contact.pos - centre, force) + felt[3:] @ axes
+        return total
 
     def step(self, torques: Array, steps: int) -> None:
         """Hold the joint torques (n,) in N·m for a number of physics steps."""
@@ -95,6 +144,7 @@ class OwnModel:
         if servos:  # a servo's set point may lie where the joint may not
             model.opt.disableflags = flags | _CLAMP
         for _ in range(steps):
+            self.push = self._pusher.apply(data.time + self._since, data)
             force = (torques - data.qfrc_spring[dofs]) / gear - offset
             force -= pull * gear * data.qpos[places] + brake * gear * data.qvel[dofs]
             data.ctrl[self._actuator[self._driven]] = (force / gain)[self._driven]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
 from preview_walk.controller.robot_limits import gait_limits
@@ -10,8 +10,9 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.commands import Command
 from preview_walk.simulation.pushes import Push
-from preview_walk.simulation.walk import Command, Progress, Walk
+from preview_walk.simulation.walk import Progress, Walk
 from preview_walk.tracking.gains import TrackingGains
 
 if TYPE_CHECKING:
@@ -21,13 +22,16 @@ if TYPE_CHECKING:
 class Settings(TypedDict, total=False):
     """The settings of a run, all optional; what they mean stands at `Walk`."""
 
-    physics_hz: int
-    control_hz: int
-    friction: float
-    pushes: Sequence[Push]
+    physics_hz: int | None
+    control_hz: float
+    friction: float | None
+    pushes: Sequence[Push] | None
     seed: int
     gains: TrackingGains | None
     solver: str
+    swing_height: float | None
+    com_height: float | None
+    on_tick: Callable[[Walk], None] | None
 
 
 def simulate(
@@ -48,7 +52,7 @@ def simulate(
         plan: the footsteps.
         progress: called now and then with the simulated time and its end (s).
         viewer: open MuJoCo's live viewer and run in real time.
-        settings: physics_hz, control_hz, friction, pushes, seed, gains, solver: see `Walk`.
+        settings: the keyword arguments of `Walk`.
 
     Raises:
         InvalidInput: the plan has a step that the robot cannot make; and as `Walk` does.
@@ -74,7 +78,7 @@ def simulate_commands(
         start: (x, y) or (x, y, yaw) midway between the feet at first (m, rad).
         progress: called now and then with the simulated time and its end (s).
         viewer: open MuJoCo's live viewer and run in real time.
-        settings: physics_hz, control_hz, friction, pushes, seed, gains, solver: see `Walk`.
+        settings: the keyword arguments of `Walk`.
 
     Raises:
         InvalidInput: a command or duration that cannot be; and as `Walk` does.

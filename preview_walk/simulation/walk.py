@@ -1,9 +1,8 @@
-"""A walk in MuJoCo: the loop that senses, ticks the controller, steps the physics and records."""
+"""A walk: the loop that senses a plant, ticks the controller, records, and lets the plant step."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from time import perf_counter
 from typing import Any
 
@@ -14,118 +13,170 @@ from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
-from preview_walk.footsteps.velocity import follow_velocity, saturated
+from preview_walk.geometry.poses import as_heading, pose_at
 from preview_walk.record.record import Record
-from preview_walk.record.recorder import Recorder
-from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import standing_configuration
+from preview_walk.simulation.commands import Command, VelocityCommands
+from preview_walk.simulation.fall import fall_reason
+from preview_walk.simulation.plant import Plant, steps_per_tick
 from preview_walk.simulation.pushes import Push
-from preview_walk.simulation.row import run_settings, tick_row
-from preview_walk.simulation.world import World, steps_per_tick
+from preview_walk.simulation.recording import WalkRecorder
+from preview_walk.simulation.requests import Requests
+from preview_walk.simulation.world import plant_of
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.types import FEET
 
-FRICTION = 0.8
-"""Default Coulomb friction between sole and floor: rubber on dry floor."""
+CONTROL_HZ = 500
+"""Default ticks of the controller per second."""
 
 STAND_AFTER = 1.0
 """Time (s) that a run goes on after the plan's end, standing."""
 
-FALL_HEIGHT = 0.7
-"""The robot has fallen when its CoM is below this share of its height above the soles ..."""
-
-FALL_TILT = 0.9
-"""... or its torso leans further than this (rad)."""
-
-FORGET = 3.0
-"""A walk by command forgets footsteps older than this (s): an endless walk keeps a short plan."""
-
-Command = tuple[float, float, float]
-"""Velocity commanded: vx, vy (m/s), yaw rate (rad/s), in the frame of the walking robot."""
-
 Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
+
+_ROUNDING = 1e-9
 
 
 class Walk:
     """A running walk; `simulate` and `simulate_commands` are the short ways.
 
-    Args:
-        robot: from `load_robot`.
-        plan: the footsteps; the robot starts standing on its two stance soles.
-        physics_hz, control_hz: rates; the first is a multiple of the second.
-        friction: Coulomb friction between soles and floor; the controller knows it.
-        pushes: forces on the body.
-        seed: seeds whatever is random in the run; kept with the record.
-        gains: weights and gains of the tracker.
-        solver: "osqp" or another backend of qpsolvers.
-        visuals: run on the model with visual meshes, for the live viewer.
+    Assign `plan`, or call `command` or `schedule`, at any moment and from any thread: what comes
+    while a tick is under way is taken at the next one. A walk pickles and copies; the copy goes on
+    bit for bit as the original does.
 
-    Raises:
-        InvalidInput: a rate or friction that cannot be, or a plan on which the robot cannot stand.
-
-    `limits`: what steps the robot's legs can make.
+    Attributes:
+        robot: the robot that walks.
+        plant: what is sensed and driven.
+        walker: the controller.
+        limits: what steps the robot's legs can make by command.
     """
+
+    __slots__ = (
+        "_commands",
+        "_dt",
+        "_fall",
+        "_interrupted",
+        "_on_tick",
+        "_recorder",
+        "_requests",
+        "_start",
+        "_substeps",
+        "_tick",
+        "_wall",
+        "limits",
+        "plant",
+        "robot",
+        "walker",
+    )
 
     def __init__(
         self,
-        robot: Robot,
+        robot: Robot | Plant,
         plan: FootstepPlan,
         *,
-        physics_hz: int = 1000,
-        control_hz: int = 500,
-        friction: float = FRICTION,
-        pushes: Sequence[Push] = (),
+        physics_hz: int | None = None,
+        control_hz: float = CONTROL_HZ,
+        friction: float | None = None,
+        pushes: Sequence[Push] | None = None,
         seed: int = 0,
         gains: TrackingGains | None = None,
         solver: str = "osqp",
-        visuals: bool = False,
+        swing_height: float | None = None,
+        com_height: float | None = None,
+        on_tick: Callable[[Walk], None] | None = None,
+        visuals: bool | None = None,
     ) -> None:
-        if not (np.isfinite(friction) and friction > 0.0):
-            raise InvalidInput(f"friction must be > 0, got {friction}.")
-        self.robot = robot
-        self._substeps = steps_per_tick(physics_hz, control_hz)
+        """Stand the robot on the plan's first soles.
+
+        Args:
+            robot: from `load_robot`, to walk in the project's own world; or a plant (a `Scene`, or
+                one's own), which has its physics, friction, pushes and robot already.
+            plan: the footsteps.
+            physics_hz: steps of the physics per second, a multiple of control_hz; None: 1000.
+            control_hz: ticks of the controller per second.
+            friction: Coulomb friction between soles and floor, known to the controller; None: 0.8.
+            pushes: forces on the robot's bodies; None: none.
+            seed: seeds whatever is random in the run; kept with the record.
+            gains: weights and gains of the tracker; None takes the defaults.
+            solver: "osqp" or another backend of qpsolvers.
+            swing_height: of a swing's apex above the higher of its two soles, m; None takes one in
+                proportion to the leg.
+            com_height: of the CoM above the soles while standing, m; None takes that of the robot's
+                walking posture.
+            on_tick: called with the walk at the end of every tick, before the physics steps.
+            visuals: run on the model with visual meshes, for the live viewer.
+
+        Raises:
+            InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
+                a plant a setting that is the plant's own.
+        """
+        own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
+        self.plant = plant_of(robot, com_height, **own)
+        self.robot = self.plant.robot
+        self._substeps = steps_per_tick(self.plant.timestep, control_hz)
         self._dt = 1.0 / control_hz
-        model = visual_model(robot) if visuals else robot.mj
-        self.world = World(robot, model, physics_hz, friction, pushes)
-        q = standing_configuration(robot, plan[0].pose, plan[1].pose)
-        self.world.place(q)
-        self.world.data.time = plan.start
-        self.walker = Walker(robot, plan, q, friction, gains, solver)
-        self.limits = command_limits(robot)
-        self._command = (0.0, 0.0, 0.0)
-        self._obey_at = np.inf
-        self._schedule: list[tuple[float, Command]] = []
-        self._tick = 0
-        self._start = plan.start
+        q = standing_configuration(self.robot, plan[0].pose, plan[1].pose)
+        self.plant.place(q, plan.start)
+        self.walker = Walker(
+            self.robot,
+            plan,
+            q,
+            friction=self.plant.friction,
+            gains=gains,
+            solver=solver,
+            swing_height=swing_height,
+        )
+        self.limits = command_limits(self.robot)
+        self._commands = VelocityCommands(self.limits, self._dt)
+        self._on_tick = on_tick
+        self._requests = Requests()
+        self._start, self._tick = plan.start, 0
         self._wall = 0.0
         self._fall: tuple[float, str] | None = None
         self._interrupted = False
-        self._recorder = Recorder(
-            run_settings(
-                robot,
-                pushes,
-                self.world,
-                control_hz=control_hz,
-                physics_hz=physics_hz,
-                friction=friction,
-                seed=seed,
-                solver=solver,
-                gains=asdict(self.walker.gains),
-            ),
-            {"nq": robot.pin.nq, "nv": robot.pin.nv, "nu": robot.pin.nv - 6},
+        self._recorder = WalkRecorder(
+            self.plant,
+            self.walker,
+            control_hz=control_hz,
+            seed=seed,
+            solver=solver,
+            pushes=() if pushes is None else pushes,
         )
 
     @classmethod
-    def standing(cls, robot: Robot, start: Sequence[float] = (0.0, 0.0), **settings: Any) -> Walk:
-        """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
+    def standing(
+        cls, robot: Robot | Plant, start: Sequence[float] = (0.0, 0.0), **settings: Any
+    ) -> Walk:
+        """Return a walk that stands, to be moved by `command`.
 
-        `settings` are the keyword arguments of `Walk`.
+        Args:
+            robot: a robot or a plant, as for `Walk`.
+            start: x, y[, yaw] of the middle of the feet, m, rad.
+            settings: the keyword arguments of `Walk`.
         """
-        planner = FootstepPlanner(step_width=robot.step_width)
-        return cls(robot, planner.generate_footsteps(0, start), **settings)
+        x, y, yaw = as_heading(start, "start")
+        body, z = robot, 0.0
+        if not isinstance(robot, Robot):
+            body, z = robot.robot, robot.ground.height(x, y)
+        assert isinstance(body, Robot)
+        plan = FootstepPlanner(step_width=body.step_width).generate_footsteps(0, (x, y, yaw))
+        return cls(robot, plan.transformed(pose_at(0.0, 0.0, z=z)), **settings)
+
+    def __repr__(self) -> str:
+        state = "fallen" if self.fallen else f"{len(self.plan.steps)} steps planned"
+        return f"Walk({self.robot.name}, {self.time:.3f} s, {state})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return everything (Python 3.10 does not do so by itself for slots)."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take everything."""
+        for name, value in state.items():
+            setattr(self, name, value)
 
     @property
     def time(self) -> float:
@@ -139,7 +190,7 @@ class Walk:
 
     @plan.setter
     def plan(self, plan: FootstepPlan) -> None:
-        self.walker.plan = plan
+        self._take(lambda: self.walker.follow(plan))
 
     @property
     def fallen(self) -> bool:
@@ -149,27 +200,33 @@ class Walk:
     @property
     def finished(self) -> bool:
         """Whether the plan is walked and the robot has stood for a while after it, or it fell."""
-        return self.fallen or self._interrupted or self.time >= self._end - 1e-9
+        return self.fallen or self._interrupted or self.time >= self._end - _ROUNDING
 
     @property
     def _end(self) -> float:
         """Time (s) at which a run ends of its own, as far as is known now."""
-        scheduled = self._schedule[-1][0] if self._schedule else -np.inf
-        return max(self.plan.end, scheduled) + STAND_AFTER
+        return max(self.plan.end, self._commands.end) + STAND_AFTER
 
     def command(self, vx: float, vy: float, wz: float) -> None:
         """Walk at this velocity from now on, until another command; zeros stop the walk.
 
-        `vx` (forward) and `vy` (left) in m/s, `wz` (yaw rate, left positive) in rad/s, in the
-        frame of the walking robot; scaled down to what its legs can do. It holds until the next
-        command; the plan of every instant ends in a stand. May be called at any moment.
+        It is scaled down to what the robot's legs can do. The plan of every instant ends in a
+        stand.
+
+        Args:
+            vx: forward, m/s, in the frame of the walking robot; so are the others.
+            vy: to the left, m/s.
+            wz: yaw rate to the left, rad/s.
 
         Raises:
-            InvalidInput: a number is not finite.
+            InvalidInput: a number is not finite, or the robot has fallen.
         """
-        saturated((vx, vy, wz), self.limits)  # refuses what cannot be before anything changes
-        self._command = (vx, vy, wz)
-        self._obey()
+
+        def give() -> None:
+            self._commands.give(self.time, (vx, vy, wz))
+            self._obey()
+
+        self._take(give)
 
     def schedule(self, commands: Sequence[tuple[Command, float]]) -> None:
         """Give these commands one after the other from now on, each for its duration; then stop.
@@ -178,45 +235,50 @@ class Walk:
             commands: pairs of a command (vx, vy, wz), as for `command`, and its duration (s).
 
         Raises:
-            InvalidInput: a number is not finite, or a duration is not > 0.
+            InvalidInput: a number is not finite, a duration is not > 0, or the robot has fallen.
         """
-        t, times = self.time, []
-        for command, duration in commands:
-            if not (np.isfinite(duration) and duration > 0.0):
-                raise InvalidInput(f"duration must be finite and > 0 s, got {duration}.")
-            saturated(command, self.limits)
-            times.append((t, command))
-            t += duration
-        self._schedule = [*times, (t, (0.0, 0.0, 0.0))]
+        self._take(lambda: self._commands.schedule(self.time, commands))
+
+    def _take(self, request: Callable[[], None]) -> None:
+        """Do what is asked, now or at the next tick, unless the robot has fallen."""
+        if self._fall is not None:
+            raise InvalidInput(
+                f"the robot fell at {self._fall[0]:.2f} s: {self._fall[1]}; make another walk."
+            )
+        self._requests.do(request)
 
     def _obey(self) -> None:
-        """Plan on along the command in force; again at every lift, so that the plan never ends."""
-        t = self.time
-        plan = follow_velocity(self.plan, t, self._command, self.limits)
-        if plan is not self.plan:
-            self.plan = plan.since(t - FORGET)
-        going = any(self._command)
-        lift = next((step.lift for step in self.plan.steps if step.lift > t), t)
-        self._obey_at = lift + 0.5 * self._dt if going else np.inf
+        """Walk by the plan that the commands ask for now."""
+        plan = self._commands.plan(self.time, self.plan)
+        if plan is not None:
+            self.walker.follow(plan)
 
     def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
-        """Go on to time `until` (s; default: until it has stood for a while after the plan).
+        """Go on to a time, or until the robot has stood for a while after the plan.
 
         Ends early at a fall; Ctrl-C ends it too and is noted in the record.
 
+        Args:
+            until: s; None ends after the plan.
+            progress: called now and then with the simulated time and its end (s).
+
         Raises:
-            InvalidInput: no `until` while a command is in force, which would be a walk for ever.
+            InvalidInput: `until` is no time, or is not given while a command is in force, which
+                would be a walk for ever.
         """
-        if until is None and any(self._command) and not self._schedule:
+        if until is not None and np.isnan(until):
+            raise InvalidInput(f"until must be a time in s, got {until}.", "until")
+        if until is None and self._commands.endless:
             raise InvalidInput(
-                "until must be given while a command is in force, "
-                f"got a walk at {self._command} for ever; command(0, 0, 0) stops it."
+                "until must be given while a command is in force, got a walk at "
+                f"{self._commands.current} for ever; command(0, 0, 0) stops it.",
+                "until",
             )
         try:
             with one_thread():
                 while not (self.fallen or self._interrupted):
                     end = self._end if until is None else until
-                    if self.time >= end - 1e-9:
+                    if self.time >= end - _ROUNDING:
                         break
                     self.tick()
                     if progress is not None and self._tick % 25 == 0:
@@ -228,48 +290,28 @@ class Walk:
     def tick(self) -> None:
         """Do one control tick: sense, compute torques, record, step the physics."""
         start = perf_counter()
-        t, world, walker = self.time, self.world, self.walker
-        while self._schedule and t >= self._schedule[0][0] - 1e-9:
-            self.command(*self._schedule.pop(0)[1])
-        if t >= self._obey_at:
+        with self._requests:
             self._obey()
-        world.sense()
-        before = perf_counter()
-        try:
-            torques = walker.tick(
-                t, world.q, world.v, {foot: float(world.wrench[foot][2]) for foot in FEET}
-            )
-        except PreviewWalkError as stop:
-            self._fall = (t, str(stop))
-            return
-        spent = perf_counter() - before
-        self._recorder.plan(t, walker.plan)
-        self._recorder.write(**tick_row(t, world, walker, torques, spent))
-        self._check_fall(t)
-        world.step(torques, self._substeps)
-        self._tick += 1
-        self._wall += perf_counter() - start
+            t, plant, walker = self.time, self.plant, self.walker
+            plant.sense()
+            before = perf_counter()
+            try:
+                load = {foot: float(plant.wrench[foot][2]) for foot in FEET}
+                torques = walker.tick(t, plant.q, plant.v, load)
+            except PreviewWalkError as stop:
+                self._fall = (t, str(stop))
+                return
+            spent = perf_counter() - before
+            self._recorder.write(t, torques, spent)
+            reason = fall_reason(walker.body.dynamics, self.robot.com_height)
+            if reason is not None:
+                self._fall = (t, reason)
+            if self._on_tick is not None:
+                self._on_tick(self)
+            plant.step(torques, self._substeps)
+            self._tick += 1
+            self._wall += perf_counter() - start
 
-    def record(self, **settings: Any) -> Record:
+    def record(self) -> Record:
         """Return the record of the run so far."""
-        time, reason = self._fall if self._fall else (None, None)
-        return self._recorder.finish(
-            fell=self.fallen,
-            fall_time=time,
-            fall_reason=reason,
-            interrupted=self._interrupted,
-            wall_time=self._wall,
-            **settings,
-        )
-
-    def _check_fall(self, t: float) -> None:
-        dynamics = self.walker.body.dynamics
-        # The lower foot is on the ground; the other one may be flung up by a recovery step.
-        ground = min(dynamics.soles[foot].position[2] for foot in FEET)
-        height = float(dynamics.com[2] - ground)
-        tilt = float(np.arccos(np.clip(dynamics.torso.rotation[2, 2], -1.0, 1.0)))
-        if height < FALL_HEIGHT * self.robot.com_height:
-            low = f"{height:.2f} m of {self.robot.com_height:.2f} m"
-            self._fall = (t, f"the CoM sank to {low} above the feet")
-        elif tilt > FALL_TILT:
-            self._fall = (t, f"the torso leaned {np.degrees(tilt):.0f} degrees")
+        return self._recorder.finish(self._fall, self._interrupted, self._wall)

@@ -1,9 +1,10 @@
-"""The world: MuJoCo's model and state of one run, its sensors and its motors."""
+"""The project's own world: a robot on the floor in MuJoCo, its sensors and its motors."""
 
 from __future__ import annotations
 
 import copy
 from collections.abc import Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -11,33 +12,64 @@ import numpy as np
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
+from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
+from preview_walk.robots.standing import at_com_height
 from preview_walk.robots.state import to_mujoco, to_pinocchio
+from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push, Pusher
+from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
+
+FRICTION = 0.8
+"""Default Coulomb friction between sole and floor: rubber on dry floor."""
+
+PHYSICS_HZ = 1000
+"""Default steps of the physics per second."""
 
 SLIP_RATIO = 10.0
 """MuJoCo's `impratio`: with its default of 1 a loaded sole creeps 5 mm a step over dry floor."""
 
 
 class World:
-    """A robot on the floor in MuJoCo.
+    """A robot on a flat floor in MuJoCo; a `Plant`.
 
-    `q` (nq,), `v` (nv,): the measured state in Pinocchio's conventions; `wrench[foot]` (6,): what
-    the sole's force sensor reads, at the sole's centre in world axes. `step` moves time on.
+    Attributes:
+        robot, ground, friction, timestep, q, v, wrench, push: see `Plant`.
+        model, data: MuJoCo's.
     """
 
     def __init__(
         self,
         robot: Robot,
-        model: mujoco.MjModel,
-        physics_hz: int,
-        friction: float,
+        *,
+        physics_hz: int = PHYSICS_HZ,
+        friction: float = FRICTION,
         pushes: Sequence[Push] = (),
+        visuals: bool = False,
     ) -> None:
+        """Put the robot into its world.
+
+        Args:
+            robot: from `load_robot`.
+            physics_hz: steps of the physics per second.
+            friction: Coulomb friction between soles and floor.
+            pushes: forces on the robot's bodies.
+            visuals: use the model with visual meshes, for a live viewer.
+
+        Raises:
+            InvalidInput: a rate or friction that is not finite and > 0, or a push on an unknown
+                body.
+        """
+        for name, value in (("physics_hz", physics_hz), ("friction", friction)):
+            if not (np.isfinite(value) and value > 0.0):
+                raise InvalidInput(f"{name} must be finite and > 0, got {value}.", name)
         self.robot = robot
-        self.model = copy.copy(model)
-        self.model.opt.timestep = 1.0 / physics_hz
+        self.friction = friction
+        self.ground: Ground = FlatGround()
+        self.timestep = 1.0 / physics_hz
+        self.model = copy.copy(visual_model(robot) if visuals else robot.mj)
+        self.model.opt.timestep = self.timestep
         self.model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         self.model.opt.impratio = SLIP_RATIO
         self.model.geom_friction[:, 0] = friction
@@ -48,15 +80,28 @@ class World:
         self.push: Array = np.zeros(3)
         self._pusher = Pusher(self.model, pushes)
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
-        self._soles = {foot: self.data.site(sole_name(foot)).xpos for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]
         self._motor_joint = self.model.jnt_dofadr[joints] - 6
-        self._physics_dt = 1.0 / physics_hz
+        self._look_at_soles()
 
-    def place(self, q: Array) -> None:
-        """Stand the robot still in configuration q (nq,): only before the run."""
+    def _look_at_soles(self) -> None:
+        # Views of MuJoCo's own memory: they follow every step.
+        self._soles = {foot: self.data.site(sole_name(foot)).xpos for foot in FEET}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the views, which belong to this state's memory."""
+        return {name: value for name, value in vars(self).items() if name != "_soles"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the state and look at it anew."""
+        vars(self).update(state)
+        self._look_at_soles()
+
+    def place(self, q: Array, t: float) -> None:
+        """Stand the robot still in configuration q (nq,) at time t (s): only before the run."""
         to_mujoco(q, np.zeros(self.model.nv), self.data.qpos, self.data.qvel)
         mujoco.mj_forward(self.model, self.data)
+        self.data.time = t
 
     def sense(self) -> None:
         """Read the state and the force sensors into `q`, `v` and `wrench`."""
@@ -73,14 +118,24 @@ class World:
             mujoco.mj_step(self.model, data)
 
 
-def steps_per_tick(physics_hz: int, control_hz: int) -> int:
-    """Return the physics steps of one control tick.
+def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) -> Plant:
+    """Return a robot's world with these settings, or a plant as it is.
 
-    Raises `InvalidInput` where a rate is not positive or physics_hz is not a multiple.
+    Args:
+        robot: a robot, or a plant.
+        com_height: that the robot is to stand with, m; None leaves its walking posture.
+        settings: keyword arguments of `World`; None takes its defaults.
+
+    Raises:
+        InvalidInput: a setting that cannot be, or that a plant has already.
     """
-    if physics_hz <= 0 or control_hz <= 0 or physics_hz % control_hz:
+    given = {name: value for name, value in settings.items() if value is not None}
+    if isinstance(robot, Robot):
+        body = robot if com_height is None else at_com_height(robot, com_height)
+        return World(body, **given)
+    names = [*given, *([] if com_height is None else ["com_height"])]
+    if names:
         raise InvalidInput(
-            f"physics_hz must be a positive multiple of control_hz, "
-            f"got {physics_hz} and {control_hz}."
+            f"{names[0]} must be left out beside a plant, which has its own.", names[0]
         )
-    return physics_hz // control_hz
+    return robot

@@ -1,10 +1,11 @@
-"""Plans for a pushed walker: a step elsewhere, sooner or later, again, or out of a stand.
+"""Recovery steps: plans with a step elsewhere, sooner or later, again, or out of a stand.
 
 Each returns a new plan in which the later steps keep their places relative to the changed one.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from math import exp
 
@@ -15,6 +16,7 @@ from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import Heading, compose, heading_of, midfeet, pose_at
 from preview_walk.geometry.support import Sole, support_margin, support_polygon
+from preview_walk.stabilizer.step_limits import StepLimits
 from preview_walk.types import FEET, Array, Foot, other
 
 SHORT_PAUSE = 0.035
@@ -71,15 +73,7 @@ def keep_standing(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | No
     return plan.replace_after(t, _moved(later, np.zeros(3), soonest - step.lift))
 
 
-def step_out(
-    plan: FootstepPlan,
-    t: float,
-    dcm: Array,
-    sole: Sole,
-    gait: GaitLimits,
-    omega: float,
-    swing_time: float,
-) -> FootstepPlan | None:
+def step_out(plan: FootstepPlan, t: float, dcm: Array, limits: StepLimits) -> FootstepPlan | None:
     """Return the plan of a robot on two feet that must step, or None while its ankles suffice.
 
     The ZMP can hold the DCM while that is above the soles. Beyond, the foot steps that catches the
@@ -87,46 +81,59 @@ def step_out(
     other foot beside it; the steps of a walk go on from there.
 
     Args:
-        plan: the walk; both feet stand at t (s).
-        dcm: (2,) measured DCM in the world (m).
-        sole: half sizes within which the ZMP can be held.
-        gait: reach and clearance of a step.
-        omega: natural frequency of the pendulum (1/s).
-        swing_time: time in the air of each step (s).
+        plan: the walk; both feet stand at t.
+        t: now, s.
+        dcm: (2,) measured DCM, world, m.
+        limits: what a recovery step may be.
     """
     soles = {foot: plan.sole(foot, t) for foot in FEET}
-    polygon = support_polygon(list(soles.values()), sole)
+    polygon = support_polygon(list(soles.values()), limits.held)
     if float(support_margin(polygon, dcm)) > 0.0:
         return None
     last = max((s.land for s in plan.lifted(t)), default=plan.start)
     following = plan.next_lift(t)
     if following is not None and following.lift <= t + UNLOAD:
         return None
+    growth = exp(limits.omega * limits.step_out_time)
+    foot, landing = _best_foot(soles, dcm, limits.held, limits.gait, growth)
     walking = following is not None and not plan.is_stand(following.lift - last)
-    foot, landing = _best_foot(soles, dcm, sole, gait, exp(omega * swing_time))
     if walking and following is not None and foot == following.foot:
         return step_sooner(plan, t)
-    stance = soles[other(foot)]
-    z = float(stance[2, 3])
-    land = t + UNLOAD + swing_time
+    z = float(soles[other(foot)][2, 3])
+    land = t + UNLOAD + limits.step_out_time
     first = Footstep(foot, pose_at(*landing, z), t + UNLOAD, land, again=True)
     later = () if following is None else plan.steps[plan.steps.index(following) :]
     if walking:
         move = first.pose[:3, 3] - soles[foot][:3, 3]
-        return plan.replace_after(
-            t, [first, *_moved(later, move, land + SHORT_PAUSE - later[0].lift)]
-        )
+        delay = land + SHORT_PAUSE - later[0].lift
+        return plan.replace_after(t, [first, *_moved(later, move, delay)])
+    return plan.replace_after(t, [first, *_closing(plan, soles, first, later, limits)])
+
+
+def _closing(
+    plan: FootstepPlan,
+    soles: Mapping[Foot, Array],
+    first: Footstep,
+    later: tuple[Footstep, ...],
+    limits: StepLimits,
+) -> list[Footstep]:
+    """Return the step that brings the other foot beside `first`, and those of the plan after it.
+
+    `soles`: where the feet stood before `first`; `later`: the plan's steps after the stand.
+    """
+    foot, width = first.foot, limits.gait.step_width
+    landing = heading_of(first.pose)
+    beside = compose(landing, 0.0, width if foot == "right" else -width)
+    lift = first.land + SHORT_PAUSE
+    z = float(first.pose[2, 3])
+    second = Footstep(other(foot), pose_at(*beside, z), lift, lift + limits.step_out_time)
     middle = midfeet(soles["left"], soles["right"])
-    aside = gait.step_width if foot == "right" else -gait.step_width
-    beside = compose(landing, 0.0, aside)
-    lift = land + SHORT_PAUSE
-    second = Footstep(other(foot), pose_at(*beside, z), lift, lift + swing_time)
     move = np.zeros(3)
     move[:2] = 0.5 * (np.array(landing[:2]) + beside[:2]) - middle[:2]
     delay = 0.0
     if later:
         delay = max(0.0, second.land + 3.0 * plan.weight_shift - later[0].lift)
-    return plan.replace_after(t, [first, second, *_moved(later, move, delay)])
+    return [second, *_moved(later, move, delay)]
 
 
 def outward(plan: FootstepPlan, t: float, foot: Foot, dcm: Array) -> float:

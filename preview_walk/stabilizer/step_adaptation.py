@@ -17,16 +17,16 @@ step takes up) in a box; all times are solved at once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp
 
 import numpy as np
 
 from preview_walk.footsteps.footstep import Footstep
-from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import compose, heading_of, pose_at
 from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE, land_at
+from preview_walk.stabilizer.situation import Situation
+from preview_walk.stabilizer.step_limits import StepLimits
 from preview_walk.types import Array, Foot, other
 
 TIMES = 40
@@ -54,89 +54,53 @@ CATCH = 0.3
 DROP = 40.0
 """Acceleration (m/s^2) with which the swing foot may come down."""
 
-TOLERANCE = 0.03
-"""Error of the DCM at landing (m per m of leg) that the next step takes up by itself."""
-
 LATEST = 0.08
-"""A landing nearer than this (s) is not changed any more, but for two: at once where it is ..."""
+"""A landing nearer than this (s) stays, but for two answers: the foot is put down at once where it
+is, or lands elsewhere after it has risen again."""
 
 RELIFT = 0.18
-"""... or elsewhere, after the foot has risen again: that takes this long (s) at least."""
+"""A foot about to land that rises again needs this long (s) at least."""
 
 SOON = 0.012
 """A foot that is nearly down can be down within this time (s): the ZMP reaches its sole sooner."""
 
 
-@dataclass(frozen=True)
-class StepLimits:
-    """What a recovery step may be.
-
-    Attributes:
-        gait: reach and clearance.
-        omega: natural frequency of the pendulum (1/s).
-        zmp: largest shift (m) of the ZMP from the sole centre, (forward, sideways).
-        swing_time: shortest and longest time in the air (s).
-        swing_speed: top speed (m/s) of the swing foot.
-        swing_acceleration: top acceleration (m/s^2) of the swing foot.
-        tolerance: error of the DCM (m) at landing that needs no answer.
-    """
-
-    gait: GaitLimits
-    omega: float
-    zmp: tuple[float, float]
-    swing_time: tuple[float, float]
-    swing_speed: float
-    swing_acceleration: float
-    tolerance: float
-
-
-def adapt_step(
-    plan: FootstepPlan,
-    t: float,
-    dcm: Array,
-    planned: tuple[Array, Array],
-    swing: tuple[Array, Array],
-    nominal: Footstep,
-    limits: StepLimits,
-) -> FootstepPlan | None:
+def adapt_step(situation: Situation, nominal: Footstep, limits: StepLimits) -> FootstepPlan | None:
     """Return the plan whose step in the air answers a DCM error, or None where none is needed.
 
     Later steps keep their places relative to the changed one and their times after it.
 
     Args:
-        plan: the walk; some foot must be in the air at t.
-        t: now (s).
-        dcm: (2,) measured DCM in the world (m).
-        planned: the plan's DCM (2,) now and at the middle of the double support after the landing.
-        swing: (3,) position (m) and velocity (m/s) of the swinging sole.
+        situation: now; without a foot that swings freely there is no answer.
         nominal: the step as it was commanded, before any change.
         limits: what a recovery step may be.
     """
+    plan, t, dcm = situation.plan, situation.t, situation.dcm
     step = plan.swing_at(t)
-    if step is None or step.land - t < SOON:
+    if step is None or situation.swing is None or step.land - t < SOON:
         return None
-    following = next((s for s in plan.steps if s.lift >= step.land), None)
+    following = plan.next_lift(step.land)
     pause = following.lift - step.land if following is not None else plan.weight_shift
+    middle = step.land + 0.5 * min(pause, plan.weight_shift)
     stance = plan.sole(other(step.foot), t)
     axes, origin = stance[:2, :2], stance[:2, 3]
-    half = np.array(limits.zmp)
-    growth = exp(limits.omega * (step.land + 0.5 * min(pause, plan.weight_shift) - t))
-    grown = (dcm - planned[0]) @ axes * growth
-    rest = grown - np.clip(grown / (growth - 1.0), -half, half) * (growth - 1.0)
-    if np.abs(rest).max() <= limits.tolerance:
+    error = (dcm - situation.planned_dcm(t)) @ axes
+    if _sole_suffices(error, exp(limits.omega * (middle - t)), limits):
         return None
 
     late = step.land - t < LATEST
-    land = _landing_times(t, step, nominal, float(swing[0][2]), limits)
-    here, speed = (swing[0][:2] - origin) @ axes, swing[1][:2] @ axes
+    position, velocity = situation.swing
+    land = _landing_times(t, step, nominal, float(position[2]), limits)
+    here, speed = (position[:2] - origin) @ axes, velocity[:2] @ axes
     box = _reachable(step.foot, here, speed, (land - t)[:, None], limits)
     wanted = (
         (nominal.pose[:2, 3] - origin) @ axes,
         (step.pose[:2, 3] - origin) @ axes,
-        (planned[1] - step.pose[:2, 3]) @ axes,
+        (situation.planned_dcm(middle) - step.pose[:2, 3]) @ axes,
     )
     tau = np.exp(limits.omega * (land + 0.5 * min(pause, SHORT_PAUSE) - t))[:, None]
     carried = _carried(limits, step.foot, wanted[2])
+    half = np.array(limits.zmp)
     place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, box, carried, half)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
@@ -150,6 +114,17 @@ def adapt_step(
         later = plan.steps[plan.steps.index(step) + 1 :]
         return plan.retarget(t, pose, float(land[best])).replace_after(t, later)
     return land_at(plan, t, pose, float(land[best]))
+
+
+def _sole_suffices(error: Array, growth: float, limits: StepLimits) -> bool:
+    """Return whether a ZMP within the sole brings the DCM's error (2,), stance axes, to rest.
+
+    `growth`: of the error until the next double support.
+    """
+    half = np.array(limits.zmp)
+    grown = error * growth
+    rest = grown - np.clip(grown / (growth - 1.0), -half, half) * (growth - 1.0)
+    return bool(np.abs(rest).max() <= limits.tolerance)
 
 
 def _landing_times(

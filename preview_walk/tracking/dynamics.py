@@ -32,6 +32,13 @@ class FrameTerms:
         self.jacobian: Array = np.zeros((6, model.nv))
         self.drift: Array = np.zeros(6)
 
+    @property
+    def pose(self) -> Array:
+        """A copy (4, 4) of the frame's pose in the world, m."""
+        pose = np.zeros((4, 4))
+        pose[:3, :3], pose[:3, 3], pose[3, 3] = self.rotation, self.position, 1.0
+        return pose
+
     def update(self, model: pin.Model, data: pin.Data) -> None:
         """Read the frame's terms after Pinocchio has computed those of the joints."""
         frame = self.frame

@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING
 
 import mujoco.viewer
 
+from preview_walk.errors import InvalidInput
 from preview_walk.simulation.pushes import base_of
+from preview_walk.simulation.scene import Scene
+from preview_walk.simulation.world import World
 
 if TYPE_CHECKING:
     from preview_walk.simulation.walk import Progress, Walk
@@ -21,7 +24,9 @@ def run_in_viewer(walk: Walk, progress: Progress | None = None) -> None:
 
     Double-click a body and drag with Ctrl and the right button to push it.
     """
-    world = walk.world
+    world = walk.plant
+    if not isinstance(world, World | Scene):
+        raise InvalidInput(f"a live window needs a walk in MuJoCo, got a {type(world).__name__}.")
     with mujoco.viewer.launch_passive(world.model, world.data) as window:
         body = base_of(world.model)
         window.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING

@@ -1,0 +1,96 @@
+"""Velocity commands of a running walk: the one in force, those to come, and the plans for them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.limits import GaitLimits
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.velocity import follow_velocity, saturated
+
+FORGET = 3.0
+"""A walk by command forgets footsteps older than this (s): an endless walk keeps a short plan."""
+
+Command = tuple[float, float, float]
+"""Velocity commanded: vx, vy (m/s), yaw rate (rad/s), in the frame of the walking robot."""
+
+STOP: Command = (0.0, 0.0, 0.0)
+
+_ROUNDING = 1e-9
+
+
+class VelocityCommands:
+    """Keeps commands and returns the plans that they ask for, when they do.
+
+    Attributes:
+        current: the command in force.
+    """
+
+    def __init__(self, limits: GaitLimits, dt: float) -> None:
+        """Stand, until a command comes.
+
+        Args:
+            limits: of the steps; commands are scaled down to them.
+            dt: time of a control tick, s.
+        """
+        self.current = STOP
+        self._limits = limits
+        self._dt = dt
+        self._later: list[tuple[float, Command]] = []
+        self._due = np.inf
+
+    @property
+    def endless(self) -> bool:
+        """Whether a command is in force that nothing will end."""
+        return any(self.current) and not self._later
+
+    @property
+    def end(self) -> float:
+        """Time (s) of the last command to come; -inf where none is."""
+        return self._later[-1][0] if self._later else -np.inf
+
+    def give(self, t: float, command: Command) -> None:
+        """Put a command in force at time t (s); raises `InvalidInput` for one that cannot be."""
+        saturated(command, self._limits)
+        self.current, self._due = command, t
+
+    def schedule(self, t: float, commands: Sequence[tuple[Command, float]]) -> None:
+        """Put these commands in force one after the other from time t (s) on, then stop.
+
+        Args:
+            t: now, s.
+            commands: pairs of a command and its duration, s.
+
+        Raises:
+            InvalidInput: a command that cannot be, or a duration that is not > 0.
+        """
+        later = []
+        for command, duration in commands:
+            if not (np.isfinite(duration) and duration > 0.0):
+                raise InvalidInput(
+                    f"duration must be finite and > 0 s, got {duration}.", "duration"
+                )
+            saturated(command, self._limits)
+            later.append((t, command))
+            t += duration
+        self._later = [*later, (t, STOP)]
+
+    def plan(self, t: float, plan: FootstepPlan) -> FootstepPlan | None:
+        """Return the plan to walk by from time t (s) on, or None while `plan` serves.
+
+        Planned again at every lift, so that the plan of a command in force never ends.
+        """
+        while self._later and t >= self._later[0][0] - _ROUNDING:
+            self.give(t, self._later.pop(0)[1])
+        if t < self._due:
+            return None
+        new = follow_velocity(plan, t, self.current, self._limits)
+        if new is not plan:
+            new = new.since(t - FORGET)
+        lift = new.next_lift(t)
+        going = any(self.current)
+        self._due = (t if lift is None else lift.lift) + 0.5 * self._dt if going else np.inf
+        return None if new is plan else new

@@ -1,0 +1,139 @@
+"""What a walk records: the run's settings once, a row at every tick, its end."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from preview_walk.controller.feet import CONTACT_FORCE
+from preview_walk.controller.walker import Walker
+from preview_walk.record.record import Record
+from preview_walk.record.recorder import Recorder, package_versions
+from preview_walk.robots.building.contact_sensor import zmp
+from preview_walk.simulation.plant import Plant
+from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
+
+NO_CONTACT = -1
+"""Measured phase of a robot that neither foot carries."""
+
+
+def run_settings(plant: Plant, walker: Walker, **settings: Any) -> dict[str, Any]:
+    """Return the settings that a record of this run keeps, with `settings` added."""
+    robot = plant.robot
+    return {
+        "robot": robot.name,
+        "title": robot.title,
+        "mass": robot.mass,
+        "gravity": robot.gravity,
+        "joint_names": list(robot.joint_names),
+        "tau_max": robot.effort.tolist(),
+        "com_height": robot.com_height,
+        "leg_length": robot.leg_length,
+        "step_width": robot.step_width,
+        "sole": [robot.sole.half_length, robot.sole.half_width],
+        "physics_hz": 1.0 / plant.timestep,
+        "friction": plant.friction,
+        "gains": asdict(walker.gains),
+        "versions": package_versions(),
+        **{**settings, "pushes": [asdict(push) for push in settings["pushes"]]},
+    }
+
+
+class WalkRecorder:
+    """Records a plant and the walker that drives it, tick by tick."""
+
+    def __init__(self, plant: Plant, walker: Walker, **settings: Any) -> None:
+        """Note what the run is made of.
+
+        Args:
+            plant: what is sensed and driven.
+            walker: the controller.
+            settings: control_hz, seed, solver, pushes.
+        """
+        self._plant, self._walker = plant, walker
+        model = plant.robot.pin
+        sizes = {"nq": model.nq, "nv": model.nv, "nu": model.nv - 6}
+        self._recorder = Recorder(run_settings(plant, walker, **settings), sizes)
+
+    def write(self, t: float, torques: Array, spent: float) -> None:
+        """Note the tick at time t (s) that sent `torques` (n,), N·m, after `spent` seconds."""
+        self._recorder.plan(t, self._walker.plan)
+        self._recorder.write(**tick_row(t, self._plant, self._walker, torques, spent))
+
+    def finish(self, fall: tuple[float, str] | None, interrupted: bool, wall_time: float) -> Record:
+        """Return the record so far.
+
+        Args:
+            fall: time (s) and reason of a fall, or None.
+            interrupted: whether the run was stopped before its end.
+            wall_time: time spent on it, s.
+        """
+        time, reason = fall or (None, None)
+        return self._recorder.finish(
+            fell=fall is not None,
+            fall_time=time,
+            fall_reason=reason,
+            interrupted=interrupted,
+            wall_time=wall_time,
+        )
+
+
+def tick_row(
+    t: float, plant: Plant, walker: Walker, torques: Array, spent: float
+) -> dict[str, Any]:
+    """Return the record's fields of the tick at time t (s) that sent `torques` (n,) in N·m.
+
+    `spent` is the wall time (s) of the whole tick.
+    """
+    body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
+    assert body.solution is not None
+    left, right = dynamics.soles["left"], dynamics.soles["right"]
+    upright = float(dynamics.torso.rotation[2, 2])
+    return {
+        "time": t,
+        "q": plant.q,
+        "v": plant.v,
+        "tau": torques,
+        "com": dynamics.com,
+        "com_ref": reference.com,
+        "com_velocity": dynamics.com_velocity,
+        "com_velocity_ref": reference.velocity,
+        "com_acceleration_ref": reference.acceleration,
+        "dcm": dynamics.com[:2] + dynamics.com_velocity[:2] / walker.pattern.omega,
+        "dcm_ref": reference.dcm,
+        "zmp": zmp(
+            (plant.wrench["left"], plant.wrench["right"]),
+            (left.position, right.position),
+            reference.ground,
+        ),
+        "zmp_ref": reference.zmp_ref,
+        "zmp_preview": reference.zmp,
+        "left_foot": left.pose,
+        "right_foot": right.pose,
+        "left_foot_ref": walker.feet.targets["left"].pose,
+        "right_foot_ref": walker.feet.targets["right"].pose,
+        "left_force": plant.wrench["left"],
+        "right_force": plant.wrench["right"],
+        "left_force_ref": body.wrench("left"),
+        "right_force_ref": body.wrench("right"),
+        "push": plant.push,
+        "torso_tilt": np.arccos(min(1.0, max(-1.0, upright))),
+        "phase": _phase(plant, CONTACT_FORCE * walker.weight),
+        "phase_ref": walker.plan.support(t),
+        "qp_iterations": body.solution.iterations,
+        "qp_status": body.status,
+        "tick_time": spent,
+        "terms_time": body.times.terms,
+        "assembly_time": body.times.assembly,
+        "qp_time": body.times.solve,
+    }
+
+
+def _phase(plant: Plant, threshold: float) -> int:
+    """Return the support phase that the force sensors show; a sole stands above `threshold` (N)."""
+    left, right = (plant.wrench[foot][2] > threshold for foot in FEET)
+    if left:
+        return DOUBLE_SUPPORT if right else LEFT_SUPPORT
+    return RIGHT_SUPPORT if right else NO_CONTACT
