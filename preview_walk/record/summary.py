@@ -75,20 +75,19 @@ class Summary:
 
 def summarize(record: Record) -> Summary:
     """Compute the figures of a record; `Record.summary()` is the same call."""
-    settings = record.settings
+    run = record.run
     n = len(record)
     duration = n * record.dt
     path, speed = _path_and_speed(record)
-    wall_time = settings.get("wall_time")
     position_error, yaw_error = _final_errors(record)
     heading = mid_yaw(record.left_foot_ref, record.right_foot_ref)
     com_error = record.com - record.com_ref
     com_error = np.column_stack([turn(com_error[:, :2], -heading), com_error[:, 2]])
     return Summary(
-        robot=settings.get("robot"),
-        fell=bool(settings.get("fell", False)),
-        fall_time=settings.get("fall_time"),
-        fall_reason=settings.get("fall_reason"),
+        robot=run.robot or None,
+        fell=run.fell,
+        fall_time=run.fall_time,
+        fall_reason=run.fall_reason,
         duration=duration,
         steps=len(_landed(record)),
         distance=path,
@@ -102,13 +101,13 @@ def summarize(record: Record) -> Summary:
         tick_ms=_times_ms(record.tick_time),
         qp_ms=_times_ms(record.qp_time),
         qp_failures=int(np.count_nonzero(record.qp_status > 0)),
-        real_time_factor=_number(duration / wall_time) if wall_time else None,
+        real_time_factor=_number(duration / run.wall_time) if run.wall_time else None,
     )
 
 
 def torque_ratios(record: Record) -> Array:
     """Return |tau| / tau_max (N, nu), nan for joints without a motor or without a limit."""
-    limits = np.array(record.settings.get("tau_max", []), dtype=np.float64)
+    limits = np.array(record.run.tau_max, dtype=np.float64)
     if limits.shape != record.tau.shape[1:]:
         return np.full(record.tau.shape, np.nan)
     limits = np.where((limits > 0) & np.isfinite(limits), limits, np.nan)
@@ -136,9 +135,9 @@ def _times_ms(seconds: Array) -> Figures:
 
 def _end(record: Record) -> float:
     """Return the time (s) up to which the robot walked: the fall, or the end of the record."""
-    fall_time = record.settings.get("fall_time")
+    fall_time = record.run.fall_time
     end = float(record.time[-1])
-    return end if fall_time is None else min(end, float(fall_time))
+    return end if fall_time is None else min(end, fall_time)
 
 
 def _landed(record: Record) -> Array:
@@ -173,7 +172,7 @@ def _path(record: Record, times: Array) -> float:
 def _final_errors(record: Record) -> tuple[float | None, float | None]:
     if not len(record) or not len(record.plans):
         return None, None
-    if record.settings.get("interrupted") and record.time[-1] < record.plans[-1].end:
+    if record.run.interrupted and record.time[-1] < record.plans[-1].end:
         return None, None
     position, angle = [], []
     for foot in FEET:
@@ -191,7 +190,6 @@ def _torque_ratio_max(record: Record) -> float | None:
 
 def _cost_of_transport(record: Record, distance: float) -> float | None:
     """Mechanical cost of transport, counting braking as work; None below 0.1 m of walking."""
-    weight = float(record.settings["mass"]) * float(record.settings["gravity"])
     rates = record.v[:, 6 : 6 + record.tau.shape[1]]
     work = float(np.nansum(np.abs(record.tau * rates))) * record.dt
-    return _number(work / (weight * distance)) if distance >= 0.1 else None
+    return _number(work / (record.run.weight * distance)) if distance >= 0.1 else None

@@ -1,8 +1,9 @@
-"""What a walk writes into its record: the run's settings once, and a row at every tick."""
+"""What a walk writes into its record: the run's facts once, and a row at every tick."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from preview_walk.controller.feet import CONTACT_FORCE, sole_pose
 from preview_walk.controller.walker import Walker
 from preview_walk.record.recorder import package_versions
+from preview_walk.record.run_facts import RunFacts
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push
@@ -21,34 +23,27 @@ NO_CONTACT = -1
 
 
 def run_settings(
-    robot: Robot, pushes: Sequence[Push], world: World, **settings: Any
-) -> dict[str, Any]:
-    """Return the settings that a record of this run keeps, with `settings` added."""
+    robot: Robot, pushes: Sequence[Push], world: World, walker: Walker, **settings: Any
+) -> RunFacts:
+    """Return the facts that a record of this run keeps, with `settings` added."""
     sole = robot.soles["left"]
-    return {
-        "robot": robot.name,
-        "title": robot.title,
-        "mass": robot.mass,
-        "gravity": float(np.linalg.norm(world.model.opt.gravity)),
-        "joint_names": list(robot.joint_names),
-        "tau_max": robot.effort.tolist(),
-        "com_height": robot.com_height,
-        "leg_length": robot.leg_length,
-        "step_width": robot.step_width,
-        "sole": [sole.half_length, sole.half_width],
-        "pushes": [
-            {
-                "t": push.t,
-                "duration": push.duration,
-                "force": list(push.force),
-                "body": push.body,
-                "point": None if push.point is None else list(push.point),
-            }
-            for push in pushes
-        ],
-        "versions": package_versions(),
+    return RunFacts(
+        robot=robot.name,
+        title=robot.title,
+        mass=robot.mass,
+        gravity=float(np.linalg.norm(world.model.opt.gravity)),
+        joint_names=tuple(robot.joint_names),
+        tau_max=tuple(robot.effort.tolist()),
+        com_height=robot.com_height,
+        leg_length=robot.leg_length,
+        step_width=robot.step_width,
+        sole=(sole.half_length, sole.half_width),
+        omega=walker.pattern.omega,
+        swing_height=walker.swing_height,
+        pushes=tuple(asdict(push) for push in pushes),
+        versions=package_versions(),
         **settings,
-    }
+    )
 
 
 def tick_row(

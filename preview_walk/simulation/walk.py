@@ -108,6 +108,7 @@ class Walk:
                 robot,
                 pushes,
                 self.world,
+                self.walker,
                 control_hz=control_hz,
                 physics_hz=physics_hz,
                 friction=friction,

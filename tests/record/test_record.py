@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import errno
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from preview_walk.files import OutputError
 from preview_walk.record.fields import FIELDS, field_table
 from preview_walk.record.record import Record
 from preview_walk.record.recorder import Recorder, package_versions
+from preview_walk.record.run_facts import RunFacts
 
 SIZES = {"nq": 10, "nv": 9, "nu": 3}
 ASKED_FOR = """
@@ -53,7 +55,7 @@ def test_save_and_load_give_the_same_bits(record: Record, tmp_path: Path) -> Non
     for name, array in record.arrays().items():
         assert getattr(loaded, name).tobytes() == array.tobytes()
         assert getattr(loaded, name).dtype == array.dtype
-    assert loaded.settings == record.settings
+    assert loaded.run == record.run
     assert [p.name for p in tmp_path.iterdir()] == ["walk.npz"]
 
 
@@ -69,8 +71,7 @@ def test_the_file_loads_without_pickle_and_is_the_same_each_time(
 
 
 def test_an_empty_record_can_be_saved_and_summarised(tmp_path: Path) -> None:
-    settings = {"control_hz": 500, "mass": 1.0, "gravity": 9.81}
-    empty = Recorder(settings, SIZES).finish(interrupted=True)
+    empty = Recorder(RunFacts(control_hz=500), SIZES).finish(interrupted=True)
     loaded = Record.load(empty.save(tmp_path / "empty.npz"))
     assert len(loaded) == 0
     assert len(loaded.plans) == 0
@@ -78,7 +79,7 @@ def test_an_empty_record_can_be_saved_and_summarised(tmp_path: Path) -> None:
 
 
 def test_recorder_grows_copies_and_marks_what_is_missing() -> None:
-    recorder = Recorder({"control_hz": 500}, SIZES, capacity=2)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES, capacity=2)
     com = np.zeros(3)
     for i in range(7):
         com[:] = i
@@ -91,7 +92,7 @@ def test_recorder_grows_copies_and_marks_what_is_missing() -> None:
 
 
 def test_a_row_that_breaks_half_way_is_not_counted() -> None:
-    recorder = Recorder({"control_hz": 500}, SIZES)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES)
     recorder.write(time=0.0)
     with pytest.raises(ValueError, match="could not broadcast"):
         recorder.write(time=0.002, com=np.zeros(4))
@@ -99,20 +100,11 @@ def test_a_row_that_breaks_half_way_is_not_counted() -> None:
     assert len(recorder.finish()) == 1
 
 
-def test_arrays_and_settings_cannot_be_changed(record: Record) -> None:
+def test_arrays_and_facts_cannot_be_changed(record: Record) -> None:
     with pytest.raises(ValueError, match="read-only"):
         record.com[0, 0] = 1.0
-    with pytest.raises(TypeError):
-        record.settings["robot"] = "other"  # type: ignore[index]
-
-
-def test_numpy_settings_become_plain_and_others_are_refused(record: Record) -> None:
-    assert record.with_settings(limit=np.arange(2)).settings["limit"] == [0, 1]
-    with pytest.raises(
-        InvalidInput,
-        match=re.escape("record settings must be plain JSON values: object is not one."),
-    ):
-        record.with_settings(bad=object())
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        record.run.robot = "other"  # type: ignore[misc]
 
 
 def test_wrong_shape_is_refused_in_one_sentence(record: Record) -> None:
@@ -131,11 +123,11 @@ def test_wrong_shape_is_refused_in_one_sentence(record: Record) -> None:
 
 def test_physical_equal_sees_one_bit_but_no_stopwatch(record: Record) -> None:
     slow = dataclasses.replace(record, tick_time=2 * record.tick_time, qp_time=record.qp_time + 1)
-    assert record.physical_equal(slow.with_settings(wall_time=99.0, command="again"))
+    assert record.physical_equal(slow.with_run(wall_time=99.0, command="again"))
     com = record.com.copy()
     com[3, 1] = np.nextafter(com[3, 1], 9)
     assert record.differences(dataclasses.replace(record, com=com)) == ("com",)
-    assert record.differences(record.with_settings(seed=1)) == ("settings['seed']",)
+    assert record.differences(record.with_run(seed=1)) == ("run.seed",)
     assert "step_pose" in record.differences(walk_record(5))
 
 
@@ -158,7 +150,8 @@ def test_a_missing_or_newer_file_gets_one_sentence(record: Record, tmp_path: Pat
     path = tmp_path / "x.npz"
     with pytest.raises(InvalidInput, match=re.escape(f"record file {path} does not exist.")):
         Record.load(path)
-    record.with_settings(format=99).save(path)
+    text = np.array(json.dumps({"format": 99, **record.run.as_dict()}))
+    np.savez(path, settings=text, **record.arrays(), **record.plans.arrays())
     sentence = f"{path} was written by a newer preview_walk; this one reads records up to format 1."
     with pytest.raises(InvalidInput, match=re.escape(sentence)):
         Record.load(path)
@@ -213,7 +206,7 @@ def test_every_revision_of_a_plan_comes_back(tmp_path: Path) -> None:
     longer = stopped.replace_after(t1, walk_plan(8).steps[len(stopped.steps) :])
     plans = [plan, stopped, longer, longer.since(t2)]
     times = [0.0, t1, t2, t2 + 0.01]
-    recorder = Recorder({"control_hz": 500}, SIZES)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES)
     for time, each in zip(times, plans, strict=True):
         recorder.plan(time, each)
         recorder.plan(time + 1e-3, each)  # the same plan again is nothing new
@@ -236,7 +229,7 @@ def test_every_revision_of_a_plan_comes_back(tmp_path: Path) -> None:
 
 def test_walked_steps_survive_edits_and_forgetting() -> None:
     plan = walk_plan(8)
-    recorder = Recorder({"control_hz": 500}, SIZES)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES)
     recorder.plan(0.0, plan)
     for step in plan.steps[2:6]:
         recorder.plan(step.land + 0.01, plan.since(step.land + 0.01))
@@ -253,7 +246,7 @@ def test_a_retargeted_step_counts_where_it_landed() -> None:
     pose = step.pose.copy()
     pose[0, 3] += 0.05
     middle = 0.5 * (step.lift + step.land)
-    recorder = Recorder({"control_hz": 500}, SIZES)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES)
     recorder.plan(0.0, plan)
     edited = plan.retarget(middle, pose, step.land + 0.05)
     recorder.plan(middle, edited)

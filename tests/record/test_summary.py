@@ -118,7 +118,7 @@ def test_a_turned_foot_is_an_error_wrapped(record: Record) -> None:
 
 def test_a_fall_stops_the_count_of_steps(record: Record) -> None:
     time = float(record.plans[-1].landings[2]) + 0.01
-    fallen = record.with_settings(fell=True, fall_time=time, fall_reason="the torso tilted")
+    fallen = record.with_run(fell=True, fall_time=time, fall_reason="the torso tilted")
     summary = fallen.summary()
     assert (summary.fell, summary.fall_time, summary.steps) == (True, time, 3)
     assert f"FELL at {time:.2f} s: the torso tilted" in str(summary)
@@ -126,9 +126,9 @@ def test_a_fall_stops_the_count_of_steps(record: Record) -> None:
 
 def test_an_interrupted_walk_has_no_final_error(record: Record) -> None:
     half = {name: array[: len(record) // 2] for name, array in record.arrays().items()}
-    stopped = dataclasses.replace(record, **half).with_settings(interrupted=True)
+    stopped = dataclasses.replace(record, **half).with_run(interrupted=True)
     assert stopped.summary().final_position_error is None
-    assert record.with_settings(interrupted=True).summary().final_position_error is not None
+    assert record.with_run(interrupted=True).summary().final_position_error is not None
 
 
 def test_flight_and_what_was_not_measured_is_left_out(record: Record) -> None:
@@ -139,7 +139,7 @@ def test_flight_and_what_was_not_measured_is_left_out(record: Record) -> None:
     )
     never = np.full_like(record.zmp, np.nan)
     times = np.full(len(record), np.nan)
-    bare = dataclasses.replace(record, zmp=never, tick_time=times).with_settings(
+    bare = dataclasses.replace(record, zmp=never, tick_time=times).with_run(
         wall_time=None, tau_max=[0.0, 0.0, 0.0]
     )
     summary = bare.summary()
