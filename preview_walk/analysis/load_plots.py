@@ -18,7 +18,7 @@ from preview_walk.analysis.style import (
     shade_phases,
 )
 from preview_walk.record.record import Record
-from preview_walk.record.summary import torque_ratios
+from preview_walk.record.summarize import torque_ratios
 from preview_walk.types import Array
 
 _LOADED = 0.05
@@ -64,7 +64,7 @@ def draw_friction(ax: Axes, record: Record) -> None:
 
 def _motors(record: Record) -> tuple[list[str], Array]:
     """Return names and |tau| / limit (N, motors) of the joints that have a motor."""
-    ratios = torque_ratios(record)
+    ratios = torque_ratios(record, record.run)
     count = ratios.shape[1]
     names = record.run.joint_names or range(count)
     has_motor = [k for k in range(count) if np.isfinite(ratios[:, k]).any()]

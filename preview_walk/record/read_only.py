@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from preview_walk.errors import InvalidInput
+
 
 class ReadOnlyMapping(Mapping[str, Any]):
     """A mapping by text that cannot be changed, nor can what it holds.
@@ -33,6 +35,16 @@ class ReadOnlyMapping(Mapping[str, Any]):
     def __repr__(self) -> str:
         """Return the items as a dict shows them."""
         return repr(self._items)
+
+
+class ReadOnlyArrays:
+    """Base of dataclasses whose arrays stay read-only when they are pickled or copied."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self.__dict__.update(state)
 
 
 def read_only(value: Any) -> Any:
@@ -61,9 +73,25 @@ def plain(value: Any) -> Any:
     return None if value != value else value
 
 
-def own_array(value: Any, dtype: DTypeLike) -> NDArray[Any]:
-    """Return `value` as an array that nobody can write to: a copy, unless it is one already."""
-    array = np.asarray(value, dtype=dtype)
+def own_array(value: Any, dtype: DTypeLike, name: str) -> NDArray[Any]:
+    """Return `value` as an array that nobody can write to: a copy, unless it is one already.
+
+    Raises:
+        InvalidInput: it is no array of numbers, or `dtype` is a whole number's and cannot hold it.
+    """
+    kind = np.dtype(dtype)
+    try:
+        given = np.asarray(value)
+    except (TypeError, ValueError):
+        given = np.empty(0, dtype=object)
+    if given.dtype.kind not in "biuf":
+        raise InvalidInput(
+            f"{name} must be an array of {kind} numbers, got {given.dtype}.", argument=name
+        )
+    with np.errstate(invalid="ignore"):
+        array = given.astype(kind, copy=False)
+    if kind.kind == "i" and array is not given and not np.array_equal(array, given):
+        raise InvalidInput(f"{name} must hold whole numbers of {kind}.", argument=name)
     base: Any = array
     while isinstance(base, np.ndarray) and not base.flags.writeable:
         base = base.base

@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-import json
 import os
-import zipfile
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import whole_file
 from preview_walk.record.fields import FIELDS, Ticks
-from preview_walk.record.plan_log import PlanLog
-from preview_walk.record.read_only import own_array
+from preview_walk.record.file import read_file, write_file
+from preview_walk.record.mujoco_state import mujoco_qpos, mujoco_qvel
+from preview_walk.record.plan_log import PLAN_ARRAYS, PlanLog
+from preview_walk.record.read_only import ReadOnlyArrays, own_array
 from preview_walk.record.run_facts import RunFacts
-
-if TYPE_CHECKING:
-    from preview_walk.record.summary import Summary
-
-FORMAT = 1
-"""Number of the file format, raised when a reader of the old one would misread the new."""
+from preview_walk.record.summarize import summarize
+from preview_walk.record.summary import Summary
+from preview_walk.types import Array
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Record(Ticks):
+class Record(ReadOnlyArrays, Ticks):
     """A run of N ticks; the arrays (`record.com`, ...) are those of `Ticks`, read-only.
 
-    - `plans`: the footstep plans, one revision per change; `plans[-1]` is the last in force.
-    - `run`: what the run was made of and how it ended.
+    Attributes:
+        plans: the footstep plans, one revision per change; `plans[-1]` is the last in force.
+        run: what the run was made of and how it ended.
 
     Raises:
         InvalidInput: an array's shape does not fit its field.
@@ -42,10 +38,13 @@ class Record(Ticks):
 
     def __post_init__(self) -> None:
         """Check the shapes, then make everything read-only."""
-        n = len(self.time)
+        for name, info in FIELDS.items():
+            array = own_array(getattr(self, name), info.dtype, name)
+            object.__setattr__(self, name, array)
+        n = self.time.size
         sizes: dict[str, int] = {}
         for name, info in FIELDS.items():
-            array = own_array(getattr(self, name), info.dtype)
+            array = getattr(self, name)
             if array.ndim > 1:
                 names = [k for k in info.shape if isinstance(k, str)]
                 sizes.update({k: array.shape[1] for k in names if k not in sizes})
@@ -54,9 +53,9 @@ class Record(Ticks):
                 text = ", ".join(map(str, ("N", *info.shape)))
                 raise InvalidInput(
                     f"record field '{name}' must have the shape ({text}) with N = {n} ticks, "
-                    f"got {array.shape}."
+                    f"got {array.shape}.",
+                    argument=name,
                 )
-            object.__setattr__(self, name, array)
 
     def __len__(self) -> int:
         return len(self.time)
@@ -69,7 +68,20 @@ class Record(Ticks):
     @property
     def dt(self) -> float:
         """Control period in s."""
-        return 1.0 / self.run.control_hz
+        return self.run.dt
+
+    @property
+    def qpos(self) -> Array:
+        """MuJoCo's configurations (N, nq): base position (m), quaternion wxyz, joints (rad)."""
+        return mujoco_qpos(self.q)
+
+    @property
+    def qvel(self) -> Array:
+        """MuJoCo's velocities (N, nv), m/s and rad/s.
+
+        Base linear velocity in world axes, angular in base axes, then joint rates.
+        """
+        return mujoco_qvel(self.q, self.v)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Return the arrays of the ticks by name."""
@@ -106,9 +118,7 @@ class Record(Ticks):
 
     def summary(self) -> Summary:
         """Return the figures of the run; it prints as a table."""
-        from preview_walk.record.summary import summarize  # the only arrow that points back
-
-        return summarize(self)
+        return summarize(self, self.plans, self.run)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the record to one compressed .npz file, whole or not at all; return its path.
@@ -119,47 +129,24 @@ class Record(Ticks):
         Raises:
             OutputError: the file cannot be written.
         """
-        settings = np.array(json.dumps({"format": FORMAT, **self.run.as_dict()}))
-        arrays = {"settings": settings, **self.arrays(), **self.plans.arrays()}
-        target = Path(path)
-        with (
-            whole_file(target) as part,
-            zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive,
-        ):
-            for name, array in arrays.items():
-                # ZipInfo's fixed date: the same record makes the same file.
-                entry = zipfile.ZipInfo(f"{name}.npy")
-                entry.compress_type = zipfile.ZIP_DEFLATED
-                with archive.open(entry, "w", force_zip64=True) as file:
-                    np.lib.format.write_array(
-                        file, np.asarray(array, order="C"), allow_pickle=False
-                    )
-        return target
+        return write_file(path, self.run.as_dict(), {**self.arrays(), **self.plans.arrays()})
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Record:
         """Read a record written by `save`.
 
         Raises:
-            InvalidInput: the file is missing, is not a record, or has a newer format.
+            InvalidInput: the file is missing, is no record, is damaged, has a newer format, or
+                would take memory out of proportion to its size.
         """
+        facts, arrays = read_file(path, [*FIELDS, *PLAN_ARRAYS])
         try:
-            with np.load(path, allow_pickle=False) as archive:
-                arrays = {name: archive[name] for name in archive.files}
-            settings = json.loads(str(arrays["settings"][()]))
-            if settings.pop("format") > FORMAT:
-                raise InvalidInput(
-                    f"{os.fspath(path)} was written by a newer preview_walk; "
-                    f"this one reads records up to format {FORMAT}."
-                )
-            run = RunFacts.from_dict(settings)
             ticks = {name: arrays[name] for name in FIELDS}
-            return Record(**ticks, plans=PlanLog.from_arrays(arrays), run=run)
-        except FileNotFoundError:
-            raise InvalidInput(f"record file {os.fspath(path)} does not exist.") from None
-        except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
-            if isinstance(error, InvalidInput):
-                raise
+            run, plans = RunFacts.from_dict(facts), PlanLog.from_arrays(arrays)
+            return Record(**ticks, plans=plans, run=run)
+        except InvalidInput as error:
+            reason = str(error).rstrip(".")
             raise InvalidInput(
-                f"{os.fspath(path)} is not a record written by preview_walk ({error})."
+                f"{os.fsdecode(path)} is not a record written by preview_walk ({reason}).",
+                argument="path",
             ) from error

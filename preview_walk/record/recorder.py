@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from platform import python_version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.record.fields import FIELDS
-from preview_walk.record.plan_log import PlanWriter
+from preview_walk.record.plan_writer import PlanWriter
 from preview_walk.record.record import Record
 from preview_walk.record.run_facts import RunFacts
-
-if TYPE_CHECKING:
-    from preview_walk.footsteps.plan import FootstepPlan
 
 
 class Recorder:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from math import nan
+from reprlib import repr as short
 from typing import Any
 
 from preview_walk.errors import InvalidInput
@@ -86,9 +87,9 @@ class RunFacts:
             expected, read = _READERS[str(each.type)]
             try:
                 object.__setattr__(self, name, read(value))
-            except (TypeError, ValueError, OverflowError):
+            except (TypeError, ValueError, OverflowError, RecursionError):
                 raise InvalidInput(
-                    f"run fact '{name}' must be {expected}, got {value!r:.80}.", argument=name
+                    f"run fact '{name}' must be {expected}, got {short(value)}.", argument=name
                 ) from None
         if not 0.0 < self.control_hz < float("inf"):
             raise InvalidInput(
@@ -106,6 +107,11 @@ class RunFacts:
         """Return one line: robot, rates and outcome."""
         end = f"fell at {self.fall_time} s" if self.fell else "did not fall"
         return f"RunFacts({self.robot or 'unknown robot'}, {self.control_hz:g} Hz, {end})"
+
+    @property
+    def dt(self) -> float:
+        """Control period, s."""
+        return 1.0 / self.control_hz
 
     @property
     def weight(self) -> float:

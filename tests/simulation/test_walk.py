@@ -11,7 +11,7 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole, support_margin, support_polygon
 from preview_walk.record.record import Record
-from preview_walk.record.summary import torque_ratios
+from preview_walk.record.summarize import torque_ratios
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.walk import STAND_AFTER
@@ -74,7 +74,7 @@ def test_the_record_holds_what_was_planned_and_what_was_measured(default_walk: R
         assert len(array) == len(r)
         # The ZMP has no meaning before the first contact force is measured.
         assert np.isfinite(array[1:]).all(), name
-    assert (torque_ratios(r)[:, r.tau.any(axis=0)] <= 1.0 + 1e-12).all()
+    assert (torque_ratios(r, r.run)[:, r.tau.any(axis=0)] <= 1.0 + 1e-12).all()
     assert (r.phase == r.phase_ref).mean() > 0.98
     k = len(r) // 2
     omega = r.com_velocity[k, :2] / (r.dcm - r.com[:, :2])[k]
