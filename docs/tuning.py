@@ -41,7 +41,7 @@ def measure(robot: Robot, plan: FootstepPlan, gains: pw.TrackingGains) -> list[f
     push = pw.Push(at, 0.1, (0.0, IMPULSE / 0.1, 0.0))
     record = pw.simulate(robot, plan, gains=gains, pushes=[push])
     calm, after = record.time < at, record.time >= at
-    if record.settings["fell"]:
+    if record.run.fell:
         return [np.nan] * len(COLUMNS)
     com = 1e3 * (record.com - record.com_ref)
     zmp = 1e3 * (record.zmp - record.zmp_ref)

@@ -44,7 +44,7 @@ def main() -> None:
 
     figure = Figure(figsize=(12, 9), layout="constrained")
     top, forward, sideways = figure.subplots(3, 1, height_ratios=[1.2, 2, 2])
-    sole = pw.Sole(*record.settings["sole"])
+    sole = pw.Sole(*record.run.sole)
     draw_soles(top, before, sole, color="0.6", linestyle="--")
     draw_soles(top, after, sole, color="tab:red")
     top.plot(*record.com[:, :2].T, color="tab:blue", label="CoM")

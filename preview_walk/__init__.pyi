@@ -53,6 +53,7 @@ from .preview.response import track as track
 
 # Records, figures, plots, films.
 from .record.record import Record as Record
+from .record.run_facts import RunFacts as RunFacts
 from .record.summary import Summary as Summary
 from .robots.inspection import inspect_robot as inspect_robot
 from .robots.listing import list_robots as list_robots

@@ -14,6 +14,7 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.record.record import Record
 from preview_walk.record.recorder import Recorder
+from preview_walk.record.run_facts import RunFacts
 
 DT = 0.005
 COM_ERROR = np.array([0.002, -0.001, 0.003])
@@ -44,6 +45,7 @@ def walk_record(
         "gravity": GRAVITY,
         "joint_names": ["hip", "knee", "free"],
         "tau_max": TAU_MAX,
+        "omega": float(np.sqrt(GRAVITY / COM_HEIGHT)),
         "control_hz": 1 / DT,
         "physics_hz": 1000.0,
         "com_height": COM_HEIGHT,
@@ -58,7 +60,8 @@ def walk_record(
         "interrupted": False,
         "wall_time": 2.0,
     }
-    recorder = Recorder({**made, **settings}, {"nq": 10, "nv": 9, "nu": 3}, capacity=64)
+    run = RunFacts.from_dict({**made, **settings})
+    recorder = Recorder(run, {"nq": 10, "nv": 9, "nu": 3}, capacity=64)
     recorder.plan(0.0, plan)
     omega = np.sqrt(GRAVITY / COM_HEIGHT)
     c, s = np.cos(start[2]), np.sin(start[2])

@@ -18,7 +18,7 @@ from preview_walk.analysis.style import (
     shade_phases,
 )
 from preview_walk.record.record import Record
-from preview_walk.record.summary import torque_ratios
+from preview_walk.record.summarize import torque_ratios
 from preview_walk.types import Array
 
 _LOADED = 0.05
@@ -26,10 +26,6 @@ _LOADED = 0.05
 
 _COLUMNS = 1500
 """Columns of the torque map; more ticks than that are taken together by their maximum."""
-
-
-def _weight(record: Record) -> float:
-    return float(record.settings["mass"]) * float(record.settings["gravity"])
 
 
 def draw_forces(ax: Axes, record: Record) -> None:
@@ -40,7 +36,7 @@ def draw_forces(ax: Axes, record: Record) -> None:
         ("right", ZMP, record.right_force, record.right_force_ref),
     ):
         draw_pair(ax, record.time, force[:, 2], planned[:, 2], colour, foot)
-    ax.axhline(_weight(record), color="0.5", linewidth=0.8, linestyle=":", label="weight")
+    ax.axhline(record.run.weight, color="0.5", linewidth=0.8, linestyle=":", label="weight")
     mark_fall(ax, record)
     finish(ax, "Contact forces, vertical", "force [N]")
     planned_too = np.isfinite(record.left_force_ref).any()
@@ -54,13 +50,12 @@ def draw_friction(ax: Axes, record: Record) -> None:
         ("left", COM, record.left_force),
         ("right", ZMP, record.right_force),
     ):
-        loaded = force[:, 2] > _LOADED * _weight(record)
+        loaded = force[:, 2] > _LOADED * record.run.weight
         ratio = np.full(len(record), np.nan)
         ratio[loaded] = np.hypot(force[loaded, 0], force[loaded, 1]) / force[loaded, 2]
         ax.plot(record.time, ratio, color=colour, **MEASURED, label=foot)
-    friction = record.settings.get("friction")
-    if friction is not None:
-        ax.axhline(float(friction), color="black", **PLANNED, label="friction of the ground")
+    if np.isfinite(record.run.friction):
+        ax.axhline(record.run.friction, color="black", **PLANNED, label="friction of the ground")
     ax.set_ylim(bottom=0)
     mark_fall(ax, record)
     finish(ax, "Friction used by the loaded feet", "horizontal / vertical force")
@@ -69,9 +64,9 @@ def draw_friction(ax: Axes, record: Record) -> None:
 
 def _motors(record: Record) -> tuple[list[str], Array]:
     """Return names and |tau| / limit (N, motors) of the joints that have a motor."""
-    ratios = torque_ratios(record)
+    ratios = torque_ratios(record, record.run)
     count = ratios.shape[1]
-    names = list(record.settings.get("joint_names", range(count)))
+    names = record.run.joint_names or range(count)
     has_motor = [k for k in range(count) if np.isfinite(ratios[:, k]).any()]
     return [str(names[k]) for k in has_motor], ratios[:, has_motor]
 

@@ -112,7 +112,7 @@ def shade_phases(ax: Axes, record: Record) -> list[Patch]:
 
 def mark_fall(ax: Axes, record: Record) -> None:
     """Draw a line where the robot fell, if it did."""
-    fall_time = record.settings.get("fall_time")
+    fall_time = record.run.fall_time
     if fall_time is not None:
         ax.axvline(fall_time, color="black", linewidth=1.2)
         ax.annotate(

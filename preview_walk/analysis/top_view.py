@@ -61,8 +61,8 @@ def measured_footprints(record: Record) -> list[tuple[int, Array]]:
 
 def draw_top_view(ax: Axes, record: Record) -> None:
     """Draw soles (planned dashed, measured filled), ZMP and CoM in the start's frame, m."""
-    sole = tuple(record.settings.get("sole", _FALLBACK_SOLE))
-    half_length, half_width = float(sole[0]), float(sole[1])
+    known = bool(np.isfinite(record.run.sole).all())
+    half_length, half_width = record.run.sole if known else _FALLBACK_SOLE
     for foot, pose in measured_footprints(record):
         corners = from_start(record, sole_corners(pose, half_length, half_width))
         colour = FOOT_COLOURS[FEET[foot]]

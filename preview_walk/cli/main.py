@@ -124,8 +124,8 @@ def _run(options: Options, command: str) -> int:
             record = pw.simulate_commands(robot, options.commands, start=options.start, **settings)
         else:
             record = pw.simulate(robot, plan, **settings)
-    record = record.with_settings(command=command)
-    stopped = bool(record.settings.get("interrupted"))
+    record = record.with_run(command=command)
+    stopped = record.run.interrupted
     if stopped:
         _say(f"Stopped by Ctrl-C after {len(record) * record.dt:.2f} s; this is the walk so far.")
     _say(str(record.summary()))
@@ -135,7 +135,7 @@ def _run(options: Options, command: str) -> int:
         raise failure
     if stopped:
         return STOPPED
-    return FELL if record.settings.get("fell") else WALKED
+    return FELL if record.run.fell else WALKED
 
 
 def _inspect(model: str, folder: Path) -> int:

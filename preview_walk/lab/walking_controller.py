@@ -119,9 +119,10 @@ class WalkingController:
     @property
     def fall(self) -> tuple[float, str] | None:
         """(time in s, reason) where the robot fell in the last walk, else None."""
-        if self._record is None or self._record.settings["fall_time"] is None:
+        run = None if self._record is None else self._record.run
+        if run is None or run.fall_time is None:
             return None
-        return self._record.settings["fall_time"], self._record.settings["fall_reason"]
+        return run.fall_time, str(run.fall_reason)
 
     def run_walking(
         self,

@@ -4,24 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.errors import InvalidInput
+from preview_walk.record.read_only import ReadOnlyArrays, own_array
 from preview_walk.types import FEET, Array, Foot
 
-if TYPE_CHECKING:
-    from preview_walk.footsteps.footstep import Footstep
-from preview_walk.footsteps.plan import FootstepPlan
+_STEP_FIELDS: dict[str, tuple[tuple[int, ...], type[np.generic]]] = {
+    "foot": ((), np.int8),
+    "pose": ((4, 4), np.float64),
+    "lift": ((), np.float64),
+    "land": ((), np.float64),
+}
+"""Shape and type of what a footstep is made of."""
 
 
 @dataclass(frozen=True, eq=False)
-class PlanRevision:
-    """A plan as arrays, one row per footstep, the two standing soles first.
+class PlanRevision(ReadOnlyArrays):
+    """A plan as arrays, one row per footstep, the two standing soles first; read-only.
 
-    `time`: when it came into force (s); `end`: when its last shift of weight is over (s);
-    `foot` (S,): 0 left, 1 right; `pose` (S, 4, 4): sole poses, world, m; `lift`, `land` (S,): s.
+    Attributes:
+        time: when it came into force, s.
+        end: when its last shift of weight is over, s.
+        foot: (S,) 0 left, 1 right.
+        pose: (S, 4, 4) sole poses, world, m.
+        lift: (S,) lift times, s.
+        land: (S,) landing times, s.
+
+    Raises:
+        InvalidInput: an array is not of its shape, or the first two rows are not both feet.
     """
 
     time: float
@@ -30,6 +44,22 @@ class PlanRevision:
     pose: Array
     lift: Array
     land: Array
+
+    def __post_init__(self) -> None:
+        """Check the shapes and make the arrays read-only."""
+        for name, (shape, kind) in _STEP_FIELDS.items():
+            array = own_array(getattr(self, name), kind, name)
+            _require_shape(array, (np.size(self.foot), *shape), name)
+            object.__setattr__(self, name, array)
+        _require_feet(self.foot, "foot")
+        _require_both_feet(self.foot[:2].tolist(), "foot")
+
+    def __len__(self) -> int:
+        return len(self.foot)
+
+    def __repr__(self) -> str:
+        """Return one line: how many steps, from when to when."""
+        return f"PlanRevision({len(self) - 2} steps, {self.time:.3f} s to {self.end:.3f} s)"
 
     def last_pose(self, foot: Foot) -> Array:
         """Return the sole pose (4, 4) where `foot` ends."""
@@ -48,11 +78,24 @@ class PlanRevision:
 
 
 @dataclass(frozen=True, eq=False)
-class PlanLog(Sequence[PlanRevision]):
-    """All revisions of a run's plan; a revision is stored as what it changed.
+class PlanLog(ReadOnlyArrays, Sequence[PlanRevision]):
+    """All revisions of a run's plan; a revision is stored as what it changed. Read-only.
 
     Revision r keeps the first `plan_kept[r]` footsteps of revision r - 1; its own rows, those with
     `step_revision == r`, follow. So an hour of walking by command stays small.
+
+    Attributes:
+        plan_time: (R,) when each revision came into force, s.
+        plan_end: (R,) when its last shift of weight is over, s.
+        plan_kept: (R,) how many footsteps it keeps of the one before.
+        step_revision: (S,) to which revision a footstep belongs, in order.
+        step_foot: (S,) 0 left, 1 right.
+        step_pose: (S, 4, 4) sole poses, world, m.
+        step_lift: (S,) lift times, s.
+        step_land: (S,) landing times, s.
+
+    Raises:
+        InvalidInput: the arrays do not fit together.
     """
 
     plan_time: Array
@@ -64,8 +107,27 @@ class PlanLog(Sequence[PlanRevision]):
     step_lift: Array
     step_land: Array
 
+    def __post_init__(self) -> None:
+        """Check that the arrays fit together and make them read-only."""
+        for name, (_, kind) in PLAN_ARRAYS.items():
+            object.__setattr__(self, name, own_array(getattr(self, name), kind, name))
+        plans, steps = self.plan_time.size, self.step_revision.size
+        for name, (shape, _) in PLAN_ARRAYS.items():
+            rows = plans if name.startswith("plan_") else steps
+            _require_shape(getattr(self, name), (rows, *shape), name)
+        _require_feet(self.step_foot, "step_foot")
+        _require_revisions(self.plan_kept, self.step_revision, self.step_foot)
+
     def __len__(self) -> int:
         return len(self.plan_time)
+
+    def __iter__(self) -> Iterator[PlanRevision]:
+        for index, rows in enumerate(self._rows()):
+            yield self._revision(index, rows)
+
+    def __repr__(self) -> str:
+        """Return one line: how many revisions and footsteps."""
+        return f"PlanLog({len(self)} revisions, {len(self.step_foot)} footsteps)"
 
     @overload
     def __getitem__(self, index: int) -> PlanRevision: ...
@@ -121,38 +183,54 @@ class PlanLog(Sequence[PlanRevision]):
         return PlanLog(**{f.name: arrays[f.name] for f in fields(PlanLog)})
 
 
-class PlanWriter:
-    """Collects the plans of a run, and only what changed between them."""
+PLAN_ARRAYS: dict[str, tuple[tuple[int, ...], type[np.generic]]] = {
+    "plan_time": ((), np.float64),
+    "plan_end": ((), np.float64),
+    "plan_kept": ((), np.int32),
+    "step_revision": ((), np.int32),
+    **{f"step_{name}": form for name, form in _STEP_FIELDS.items()},
+}
+"""Shape of a row and type of each array of the log, as `record.npz` holds them."""
 
-    def __init__(self) -> None:
-        self._current: tuple[Footstep, ...] = ()
-        self._plans: list[tuple[float, float, int]] = []
-        self._steps: list[tuple[int, Footstep]] = []
 
-    def write(self, time: float, plan: FootstepPlan) -> None:
-        """Note that `plan` is in force from `time` (s) on."""
-        steps = tuple(plan)
-        kept = 0
-        # Footsteps are immutable values that an edited plan shares with the one before it.
-        for old, new in zip(self._current, steps, strict=False):
-            if old is not new:
-                break
-            kept += 1
-        revision = len(self._plans)
-        self._plans.append((time, plan.end, kept))
-        self._steps.extend((revision, step) for step in steps[kept:])
-        self._current = steps
+def _require_shape(array: NDArray[Any], shape: tuple[int, ...], name: str) -> None:
+    if array.shape != shape:
+        raise InvalidInput(f"{name} must have the shape {shape}, got {array.shape}.", argument=name)
 
-    def finish(self) -> PlanLog:
-        """Return what was written."""
-        steps = [step for _, step in self._steps]
-        return PlanLog(
-            plan_time=np.array([time for time, _, _ in self._plans], dtype=np.float64),
-            plan_end=np.array([end for _, end, _ in self._plans], dtype=np.float64),
-            plan_kept=np.array([kept for _, _, kept in self._plans], dtype=np.int32),
-            step_revision=np.array([r for r, _ in self._steps], dtype=np.int32),
-            step_foot=np.array([FEET.index(step.foot) for step in steps], dtype=np.int8),
-            step_pose=np.array([step.pose for step in steps], dtype=np.float64).reshape(-1, 4, 4),
-            step_lift=np.array([step.lift for step in steps], dtype=np.float64),
-            step_land=np.array([step.land for step in steps], dtype=np.float64),
+
+def _require_feet(foot: NDArray[np.int8], name: str) -> None:
+    if not np.isin(foot, (0, 1)).all():
+        raise InvalidInput(f"{name} must hold 0 (left) and 1 (right) only.", argument=name)
+
+
+def _require_both_feet(first: list[int], name: str) -> None:
+    if sorted(first) != [0, 1]:
+        raise InvalidInput(
+            f"{name} must begin with one sole of each foot, 0 (left) and 1 (right), got {first}.",
+            argument=name,
         )
+
+
+def _require_revisions(
+    kept: NDArray[np.int32], revision: NDArray[np.int32], foot: NDArray[np.int8]
+) -> None:
+    """Check that every revision keeps what there is, adds rows in order, and has both feet."""
+    count = len(kept)
+    inside = not len(revision) or (revision[0] >= 0 and revision[-1] < count)
+    if not inside or (np.diff(revision) < 0).any():
+        raise InvalidInput(
+            f"step_revision must go up and stay within 0 and {count - 1}.",
+            argument="step_revision",
+        )
+    length, own, first = 0, 0, list[int]()
+    added = np.bincount(revision, minlength=count).tolist()
+    for shared, new in zip(kept.tolist(), added, strict=True):
+        if not 0 <= shared <= length:
+            raise InvalidInput(
+                f"plan_kept must be from 0 to the {length} footsteps of the plan before, "
+                f"got {shared}.",
+                argument="plan_kept",
+            )
+        first = [*first[:shared], *foot[own : own + min(new, 2)].tolist()][:2]
+        _require_both_feet(first, "step_foot")
+        length, own = shared + new, own + new

@@ -5,30 +5,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from platform import python_version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.record.fields import FIELDS
-from preview_walk.record.plan_log import PlanWriter
+from preview_walk.record.plan_writer import PlanWriter
 from preview_walk.record.record import Record
-
-if TYPE_CHECKING:
-    from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.record.run_facts import RunFacts
 
 
 class Recorder:
     """Growing arrays for the fields of a record.
 
     `sizes` gives nq, nv and nu; `capacity` is the number of ticks to make room for at first (it
-    doubles when full); `settings` are those of `Record` that are known before the run.
+    doubles when full); `run` holds the facts that are known before the run.
     """
 
-    def __init__(
-        self, settings: Mapping[str, Any], sizes: Mapping[str, int], capacity: int = 4096
-    ) -> None:
-        self._settings = dict(settings)
+    def __init__(self, run: RunFacts, sizes: Mapping[str, int], capacity: int = 4096) -> None:
+        self._run = run
         self._plans = PlanWriter()
         self._plan: FootstepPlan | None = None
         self._n = 0
@@ -61,10 +58,14 @@ class Recorder:
             self._plan = plan
             self._plans.write(time, plan)
 
-    def finish(self, **settings: Any) -> Record:
-        """Return the record of the ticks so far, with these settings added (fell, wall_time...)."""
+    def finish(self, **outcome: Any) -> Record:
+        """Return the record of the ticks so far; `outcome` replaces facts (fell, wall_time, ...).
+
+        Raises:
+            InvalidInput: the run has no fact of such a name.
+        """
         arrays = {name: array[: self._n] for name, array in self._arrays.items()}
-        return Record(**arrays, plans=self._plans.finish(), settings={**self._settings, **settings})
+        return Record(**arrays, plans=self._plans.finish(), run=self._run.replaced(**outcome))
 
     def _grow(self) -> None:
         for name, array in self._arrays.items():

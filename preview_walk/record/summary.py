@@ -1,18 +1,18 @@
-"""The figures of a run, from its record alone."""
+"""The figures of a run as a value: a table to print, a file to write."""
 
 from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from preview_walk.files import whole_file
-from preview_walk.geometry.planar import mid_yaw, turn, wrap, yaw
-from preview_walk.record.record import Record
-from preview_walk.types import FEET, Array
 
 Figures = dict[str, float] | None
 
@@ -21,19 +21,30 @@ Figures = dict[str, float] | None
 class Summary:
     """What a run came to, SI units; None where a figure has no meaning for the run.
 
-    - `fell`, `fall_time` (s), `fall_reason`; `duration` (s simulated); `steps` that had landed.
-    - `distance` (m): the CoM's horizontal path, taken once a stride so that sway does not count.
-    - `speed` (m/s): that path over its time, between landings a quarter and three quarters through
-      the walk.
-    - `final_position_error` (m), `final_yaw_error` (rad): the worse sole at the end of the record,
-      against the last poses of the plan; None for a walk that was interrupted.
-    - `com_error_rms` [x, y, z], `zmp_error_rms` [x, y] (m): measured minus reference over all
-      ticks; x is the planned heading of the moment, so that they do not depend on where the robot
-      faces.
-    - `torque_ratio_max`: largest share of a motor's limit.
-    - `cost_of_transport`: sum of |torque x joint rate| over time, per weight and distance.
-    - `tick_ms`, `qp_ms`: median, p99, max; `qp_failures`: ticks that did not use a solved QP.
-    - `real_time_factor`: simulated time over time spent.
+    Attributes:
+        robot: name of the robot.
+        fell: whether it fell.
+        fall_time: when, s.
+        fall_reason: why, in words.
+        duration: seconds simulated.
+        steps: how many had landed.
+        distance: the CoM's horizontal path, m, taken once a stride so that sway does not count.
+        speed: that path over its time, m/s, between the landings a quarter and three quarters
+            through the walk.
+        final_position_error: of the worse sole at the end of the record, m, against the last poses
+            of the plan; None for a walk that was interrupted.
+        final_yaw_error: the same, rad.
+        com_error_rms: [x, y, z], m, measured minus reference over all ticks; x is the planned
+            heading of the moment, so that it does not depend on where the robot faces.
+        zmp_error_rms: [x, y], m, likewise.
+        torque_ratio_max: largest share of a motor's limit.
+        cost_of_transport: absolute mechanical work, the sum of |torque x joint rate| over time, per
+            weight and distance: braking costs as much as driving.
+        cost_of_transport_positive: the same of positive work alone: braking is free.
+        tick_ms: median, p99 and max of the control tick's wall time, ms.
+        qp_ms: the same of its QP.
+        qp_failures: ticks that did not use a solved QP.
+        real_time_factor: simulated time over time spent.
     """
 
     robot: str | None
@@ -50,6 +61,7 @@ class Summary:
     zmp_error_rms: list[float | None]
     torque_ratio_max: float | None
     cost_of_transport: float | None
+    cost_of_transport_positive: float | None
     tick_ms: Figures
     qp_ms: Figures
     qp_failures: int
@@ -57,141 +69,77 @@ class Summary:
 
     def __str__(self) -> str:
         """Return the table that the command prints."""
-        from preview_walk.record.summary_table import table
-
         return table(self)
+
+    def __repr__(self) -> str:
+        """Return one line: robot, seconds, steps and outcome."""
+        robot = self.robot or "unknown robot"
+        return f"Summary({robot}, {self.duration:.3f} s, {self.steps} steps, {_outcome(self)})"
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write `summary.json`, whole or not at all; return its path.
 
+        What is not finite is written as null, for JSON has no infinite numbers.
+
         Raises:
             OutputError: the file cannot be written.
         """
-        text = json.dumps(asdict(self), indent=2, allow_nan=False) + "\n"
+        text = json.dumps(_finite(asdict(self)), indent=2, allow_nan=False) + "\n"
         with whole_file(path) as part:
             part.write_text(text, encoding="utf-8")
         return Path(path)
 
 
-def summarize(record: Record) -> Summary:
-    """Compute the figures of a record; `Record.summary()` is the same call."""
-    settings = record.settings
-    n = len(record)
-    duration = n * record.dt
-    path, speed = _path_and_speed(record)
-    wall_time = settings.get("wall_time")
-    position_error, yaw_error = _final_errors(record)
-    heading = mid_yaw(record.left_foot_ref, record.right_foot_ref)
-    com_error = record.com - record.com_ref
-    com_error = np.column_stack([turn(com_error[:, :2], -heading), com_error[:, 2]])
-    return Summary(
-        robot=settings.get("robot"),
-        fell=bool(settings.get("fell", False)),
-        fall_time=settings.get("fall_time"),
-        fall_reason=settings.get("fall_reason"),
-        duration=duration,
-        steps=len(_landed(record)),
-        distance=path,
-        speed=speed,
-        final_position_error=position_error,
-        final_yaw_error=yaw_error,
-        com_error_rms=_rms(com_error),
-        zmp_error_rms=_rms(turn(record.zmp - record.zmp_ref, -heading)),
-        torque_ratio_max=_torque_ratio_max(record),
-        cost_of_transport=_cost_of_transport(record, path),
-        tick_ms=_times_ms(record.tick_time),
-        qp_ms=_times_ms(record.qp_time),
-        qp_failures=int(np.count_nonzero(record.qp_status > 0)),
-        real_time_factor=_number(duration / wall_time) if wall_time else None,
-    )
+def _finite(value: Any) -> Any:
+    """Return plain values with None for every number that is not finite."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def torque_ratios(record: Record) -> Array:
-    """Return |tau| / tau_max (N, nu), nan for joints without a motor or without a limit."""
-    limits = np.array(record.settings.get("tau_max", []), dtype=np.float64)
-    if limits.shape != record.tau.shape[1:]:
-        return np.full(record.tau.shape, np.nan)
-    limits = np.where((limits > 0) & np.isfinite(limits), limits, np.nan)
-    ratios: Array = np.abs(record.tau) / limits
-    return ratios
+def table(summary: Summary) -> str:
+    """Return one aligned line per figure: name, value, unit."""
+    s = summary
+    rows = [
+        ("robot", s.robot or "unknown"),
+        ("outcome", _outcome(s)),
+        ("duration", _value(s.duration, 2, "s simulated")),
+        ("steps landed", str(s.steps)),
+        ("distance", _value(s.distance, 3, "m")),
+        ("speed (steady part)", _value(s.speed, 3, "m/s")),
+        ("final position error", _value(s.final_position_error, 1, "mm", 1e3)),
+        ("final yaw error", _value(s.final_yaw_error, 2, "deg", 180 / np.pi)),
+        ("CoM error rms x, y, z", _values(s.com_error_rms, 2, "mm", 1e3)),
+        ("ZMP error rms x, y", _values(s.zmp_error_rms, 2, "mm", 1e3)),
+        ("largest torque / limit", _value(s.torque_ratio_max, 3, "")),
+        ("cost of transport", _value(s.cost_of_transport, 3, "")),
+        ("  positive work alone", _value(s.cost_of_transport_positive, 3, "")),
+        ("tick median, p99, max", _times(s.tick_ms)),
+        ("QP median, p99, max", _times(s.qp_ms)),
+        ("QP failures", str(s.qp_failures)),
+        ("real-time factor", _value(s.real_time_factor, 2, "x")),
+    ]
+    width = max(len(name) for name, _ in rows)
+    return "\n".join(f"{name:{width}}  {value}" for name, value in rows)
 
 
-def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
+def _outcome(s: Summary) -> str:
+    if not s.fell:
+        return "did not fall"
+    when = f" at {s.fall_time:.2f} s" if s.fall_time is not None else ""
+    return f"FELL{when}" + (f": {s.fall_reason}" if s.fall_reason else "")
 
 
-def _rms(error: Array) -> list[float | None]:
-    """Root mean square of each column over its finite rows."""
-    columns = [column[np.isfinite(column)] for column in error.T]
-    return [float(np.sqrt(np.mean(c**2))) if len(c) else None for c in columns]
+def _value(value: float | None, digits: int, unit: str, scale: float = 1.0) -> str:
+    return "-" if value is None else f"{scale * value:.{digits}f} {unit}".rstrip()
 
 
-def _times_ms(seconds: Array) -> Figures:
-    times = 1e3 * seconds[np.isfinite(seconds)]
-    if not len(times):
-        return None
-    median, p99 = np.percentile(times, [50, 99])
-    return {"median": float(median), "p99": float(p99), "max": float(times.max())}
+def _values(values: Sequence[float | None], digits: int, unit: str, scale: float) -> str:
+    parts = ["-" if v is None else f"{scale * v:.{digits}f}" for v in values]
+    return f"{', '.join(parts)} {unit}"
 
 
-def _end(record: Record) -> float:
-    """Return the time (s) up to which the robot walked: the fall, or the end of the record."""
-    fall_time = record.settings.get("fall_time")
-    end = float(record.time[-1])
-    return end if fall_time is None else min(end, float(fall_time))
-
-
-def _landed(record: Record) -> Array:
-    """Return the planned landing times (s) of the steps taken."""
-    if not len(record) or not len(record.plans):
-        return np.zeros(0)
-    return record.plans.walked(_end(record)).landings
-
-
-def _path_and_speed(record: Record) -> tuple[float, float | None]:
-    """Return the CoM's path in m, sampled once a stride, and its steady speed in m/s."""
-    if not len(record):
-        return 0.0, None
-    landed = _landed(record)
-    # Every second landing is of the same foot: the sway is at the same point of its cycle. The last
-    # landing is left out, for what follows it is sway alone.
-    times = np.concatenate([[record.time[0]], landed[1:-1:2], [_end(record)]])
-    distance = _path(record, times)
-    if len(landed) < 3:
-        return distance, None
-    first, last = round(0.25 * (len(landed) - 1)), round(0.75 * (len(landed) - 1))
-    strides = max(1, (last - first) // 2)
-    span = landed[first : first + 2 * strides + 1 : 2]
-    return distance, _path(record, span) / float(span[-1] - span[0])
-
-
-def _path(record: Record, times: Array) -> float:
-    points = np.column_stack([np.interp(times, record.time, record.com[:, k]) for k in (0, 1)])
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-
-
-def _final_errors(record: Record) -> tuple[float | None, float | None]:
-    if not len(record) or not len(record.plans):
-        return None, None
-    if record.settings.get("interrupted") and record.time[-1] < record.plans[-1].end:
-        return None, None
-    position, angle = [], []
-    for foot in FEET:
-        pose = (record.left_foot if foot == "left" else record.right_foot)[-1]
-        planned = record.plans[-1].last_pose(foot)
-        position.append(float(np.linalg.norm(pose[:3, 3] - planned[:3, 3])))
-        angle.append(abs(float(wrap(yaw(pose) - yaw(planned)))))
-    return _number(max(position)), _number(max(angle))
-
-
-def _torque_ratio_max(record: Record) -> float | None:
-    ratios = torque_ratios(record)
-    return float(np.nanmax(ratios)) if np.isfinite(ratios).any() else None
-
-
-def _cost_of_transport(record: Record, distance: float) -> float | None:
-    """Mechanical cost of transport, counting braking as work; None below 0.1 m of walking."""
-    weight = float(record.settings["mass"]) * float(record.settings["gravity"])
-    rates = record.v[:, 6 : 6 + record.tau.shape[1]]
-    work = float(np.nansum(np.abs(record.tau * rates))) * record.dt
-    return _number(work / (weight * distance)) if distance >= 0.1 else None
+def _times(figures: Figures) -> str:
+    return "-" if figures is None else f"{', '.join(f'{v:.3f}' for v in figures.values())} ms"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.pushes import Push
 from preview_walk.terrain.ground import Ground
 from preview_walk.types import Array, Foot
 
@@ -45,6 +46,10 @@ class Plant(Protocol):
     @property
     def wrench(self) -> Mapping[Foot, Array]:
         """(6,) per foot, ground on robot: [force; moment about the sole's centre], world axes."""
+
+    @property
+    def pushes(self) -> Sequence[Push]:
+        """The forces on it that are known beforehand, for the record."""
 
     @property
     def push(self) -> Array:

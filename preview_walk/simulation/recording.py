@@ -11,6 +11,7 @@ from preview_walk.controller.feet import CONTACT_FORCE
 from preview_walk.controller.walker import Walker
 from preview_walk.record.record import Record
 from preview_walk.record.recorder import Recorder, package_versions
+from preview_walk.record.run_facts import RunFacts
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.simulation.plant import Plant
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
@@ -19,43 +20,46 @@ NO_CONTACT = -1
 """Measured phase of a robot that neither foot carries."""
 
 
-def run_settings(plant: Plant, walker: Walker, **settings: Any) -> dict[str, Any]:
-    """Return the settings that a record of this run keeps, with `settings` added."""
+def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
+    """Return what a record of this run says of it, with `facts` added."""
     robot = plant.robot
-    return {
-        "robot": robot.name,
-        "title": robot.title,
-        "mass": robot.mass,
-        "gravity": robot.gravity,
-        "joint_names": list(robot.joint_names),
-        "tau_max": robot.effort.tolist(),
-        "com_height": robot.com_height,
-        "leg_length": robot.leg_length,
-        "step_width": robot.step_width,
-        "sole": [robot.sole.half_length, robot.sole.half_width],
-        "physics_hz": 1.0 / plant.timestep,
-        "friction": plant.friction,
-        "gains": asdict(walker.gains),
-        "versions": package_versions(),
-        **{**settings, "pushes": [asdict(push) for push in settings["pushes"]]},
-    }
+    return RunFacts(
+        robot=robot.name,
+        title=robot.title,
+        mass=robot.mass,
+        gravity=robot.gravity,
+        joint_names=robot.joint_names,
+        tau_max=tuple(robot.effort.tolist()),
+        com_height=robot.com_height,
+        leg_length=robot.leg_length,
+        step_width=robot.step_width,
+        sole=(robot.sole.half_length, robot.sole.half_width),
+        omega=walker.pattern.omega,
+        swing_height=walker.swing_height,
+        physics_hz=1.0 / plant.timestep,
+        friction=plant.friction,
+        pushes=tuple(asdict(push) for push in plant.pushes),
+        gains=asdict(walker.gains),
+        versions=package_versions(),
+        **facts,
+    )
 
 
 class WalkRecorder:
     """Records a plant and the walker that drives it, tick by tick."""
 
-    def __init__(self, plant: Plant, walker: Walker, **settings: Any) -> None:
+    def __init__(self, plant: Plant, walker: Walker, pushes: Sequence[Push], **facts: Any) -> None:
         """Note what the run is made of.
 
         Args:
             plant: what is sensed and driven.
             walker: the controller.
-            settings: control_hz, seed, solver, pushes.
+            facts: control_hz, seed, solver.
         """
         self._plant, self._walker = plant, walker
         model = plant.robot.pin
         sizes = {"nq": model.nq, "nv": model.nv, "nu": model.nv - 6}
-        self._recorder = Recorder(run_settings(plant, walker, **settings), sizes)
+        self._recorder = Recorder(run_facts(plant, walker, **facts), sizes)
 
     def write(self, t: float, torques: Array, spent: float) -> None:
         """Note the tick at time t (s) that sent `torques` (n,), N·m, after `spent` seconds."""

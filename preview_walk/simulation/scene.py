@@ -32,8 +32,8 @@ class Scene:
     for. Joint springs are made up for. A sole's wrench is summed over MuJoCo's contacts.
 
     Attributes:
-        robot, ground, friction, timestep, q, v, wrench, push: see `Plant`; the friction is that
-            between floor and feet, and not believed where it is more than `World`'s.
+        robot, ground, friction, timestep, q, v, wrench, pushes, push: see `Plant`; the friction
+            is that between floor and feet, and not believed where it is more than `World`'s.
         model, data: the user's; only `data` changes.
     """
 
@@ -83,6 +83,7 @@ class Scene:
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
+        self.pushes = tuple(pushes)
         self._pusher = Pusher(model, pushes, base)
         self._since = 0.0  # the walk's time less the scene's own
         self._kinematics = robot.pin.createData()

@@ -143,7 +143,6 @@ class Walk:
             control_hz=control_hz,
             seed=seed,
             solver=solver,
-            pushes=() if pushes is None else pushes,
         )
 
     @classmethod

@@ -35,7 +35,7 @@ class World:
     """A robot on a flat floor in MuJoCo; a `Plant`.
 
     Attributes:
-        robot, ground, friction, timestep, q, v, wrench, push: see `Plant`.
+        robot, ground, friction, timestep, q, v, wrench, pushes, push: see `Plant`.
         model, data: MuJoCo's.
     """
 
@@ -78,6 +78,7 @@ class World:
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
+        self.pushes = tuple(pushes)
         self._pusher = Pusher(self.model, pushes)
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]

@@ -16,7 +16,6 @@ from preview_walk.offscreen import RenderError, off_screen
 from preview_walk.record.record import Record
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.state import to_mujoco
 from preview_walk.types import Array
 
 FPS = 30
@@ -51,13 +50,13 @@ def frames(
     heading = midfeet(record.left_foot_ref[0], record.right_foot_ref[0])[2]
     camera.azimuth = np.degrees(heading) + 125.0
     way = _smooth(record.com, round(SWAY / record.dt))
-    still = np.zeros(model.nv)
+    qpos = record.qpos
     with off_screen():
         renderer = mujoco.Renderer(model, *size)
     with renderer:
         for time in times:
             tick = min(int(np.searchsorted(record.time, time)), len(record) - 1)
-            to_mujoco(record.q[tick], still, data.qpos, data.qvel)
+            data.qpos[:] = qpos[tick]
             mujoco.mj_kinematics(model, data)
             mujoco.mj_comPos(model, data)
             mujoco.mj_camlight(model, data)

@@ -94,7 +94,7 @@ def test_a_walk_leaves_the_table_and_the_folder(
     assert "record.npz, summary.json, walk.png, top_view.png" in printed.out
     assert "walking: 100%" in printed.err
     assert json.loads((out / "summary.json").read_text())["steps"] == 4
-    command = Record.load(out / "record.npz").settings["command"]
+    command = Record.load(out / "record.npz").run.command
     assert command == f"preview-walk --steps 4 --out {out}"
 
 

@@ -73,7 +73,7 @@ def test_is_the_walking_posture_where_the_soles_fit(talos: Robot) -> None:
 @pytest.mark.parametrize("plan", [PLANS["wider"], PLANS["one foot ahead"]])
 def test_a_placed_robot_keeps_standing(talos: Robot, plan: FootstepPlan) -> None:
     record = pw.Walk(talos, plan).run(until=0.5).record()
-    assert not record.settings["fell"]
+    assert not record.run.fell
     assert np.abs(record.com[-1] - record.com[0]).max() < 0.01
     for foot in FEET:
         slip = np.ptp(getattr(record, f"{foot}_foot")[:, :2, 3], axis=0)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import errno
+import json
+import pickle
 import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from synthetic_walk import walk_plan, walk_record
+from synthetic_walk import walk_record
 
 from preview_walk import files
 from preview_walk.errors import InvalidInput
@@ -18,6 +21,7 @@ from preview_walk.files import OutputError
 from preview_walk.record.fields import FIELDS, field_table
 from preview_walk.record.record import Record
 from preview_walk.record.recorder import Recorder, package_versions
+from preview_walk.record.run_facts import RunFacts
 
 SIZES = {"nq": 10, "nv": 9, "nu": 3}
 ASKED_FOR = """
@@ -53,7 +57,7 @@ def test_save_and_load_give_the_same_bits(record: Record, tmp_path: Path) -> Non
     for name, array in record.arrays().items():
         assert getattr(loaded, name).tobytes() == array.tobytes()
         assert getattr(loaded, name).dtype == array.dtype
-    assert loaded.settings == record.settings
+    assert loaded.run == record.run
     assert [p.name for p in tmp_path.iterdir()] == ["walk.npz"]
 
 
@@ -69,8 +73,7 @@ def test_the_file_loads_without_pickle_and_is_the_same_each_time(
 
 
 def test_an_empty_record_can_be_saved_and_summarised(tmp_path: Path) -> None:
-    settings = {"control_hz": 500, "mass": 1.0, "gravity": 9.81}
-    empty = Recorder(settings, SIZES).finish(interrupted=True)
+    empty = Recorder(RunFacts(control_hz=500), SIZES).finish(interrupted=True)
     loaded = Record.load(empty.save(tmp_path / "empty.npz"))
     assert len(loaded) == 0
     assert len(loaded.plans) == 0
@@ -78,7 +81,7 @@ def test_an_empty_record_can_be_saved_and_summarised(tmp_path: Path) -> None:
 
 
 def test_recorder_grows_copies_and_marks_what_is_missing() -> None:
-    recorder = Recorder({"control_hz": 500}, SIZES, capacity=2)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES, capacity=2)
     com = np.zeros(3)
     for i in range(7):
         com[:] = i
@@ -91,7 +94,7 @@ def test_recorder_grows_copies_and_marks_what_is_missing() -> None:
 
 
 def test_a_row_that_breaks_half_way_is_not_counted() -> None:
-    recorder = Recorder({"control_hz": 500}, SIZES)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES)
     recorder.write(time=0.0)
     with pytest.raises(ValueError, match="could not broadcast"):
         recorder.write(time=0.002, com=np.zeros(4))
@@ -99,20 +102,55 @@ def test_a_row_that_breaks_half_way_is_not_counted() -> None:
     assert len(recorder.finish()) == 1
 
 
-def test_arrays_and_settings_cannot_be_changed(record: Record) -> None:
+def test_arrays_and_facts_cannot_be_changed(record: Record) -> None:
     with pytest.raises(ValueError, match="read-only"):
         record.com[0, 0] = 1.0
-    with pytest.raises(TypeError):
-        record.settings["robot"] = "other"  # type: ignore[index]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        record.run.robot = "other"  # type: ignore[misc]
 
 
-def test_numpy_settings_become_plain_and_others_are_refused(record: Record) -> None:
-    assert record.with_settings(limit=np.arange(2)).settings["limit"] == [0, 1]
-    with pytest.raises(
-        InvalidInput,
-        match=re.escape("record settings must be plain JSON values: object is not one."),
-    ):
-        record.with_settings(bad=object())
+def test_a_record_pickles_and_copies_and_stays_read_only(record: Record) -> None:
+    for twin in (pickle.loads(pickle.dumps(record)), copy.deepcopy(record), copy.copy(record)):
+        assert twin.differences(record) == ()
+        assert twin.run == record.run
+        for name, array in {**twin.arrays(), **twin.plans.arrays()}.items():
+            assert not array.flags.writeable, name
+
+
+def test_loaded_arrays_are_read_only(record: Record, tmp_path: Path) -> None:
+    loaded = Record.load(record.save(tmp_path / "x.npz"))
+    for name, array in {**loaded.arrays(), **loaded.plans.arrays()}.items():
+        assert not array.flags.writeable, name
+
+
+def test_the_callers_arrays_are_not_kept(record: Record) -> None:
+    com = record.com.copy()
+    view = com[:]
+    view.setflags(write=False)  # the caller can still write through `com`
+    for given in (com, view):
+        made = dataclasses.replace(record, com=given)
+        com[0] = 9.0
+        np.testing.assert_array_equal(made.com, record.com)
+        com[0] = record.com[0]
+        assert com.flags.writeable
+    # What nobody can write to is not copied.
+    assert made.zmp is record.zmp
+
+
+def test_a_record_of_a_run_that_goes_on_does_not_change() -> None:
+    recorder = Recorder(RunFacts(control_hz=500), SIZES, capacity=4)
+    recorder.write(time=0.0, com=np.zeros(3))
+    first = recorder.finish()
+    recorder._arrays["com"][0] = 1.0
+    assert (first.com == 0.0).all()
+
+
+@pytest.mark.parametrize("junk", [None, "text", 1.0, [[1, 2], [3]], np.zeros(3, dtype=complex)])
+def test_what_is_no_array_is_refused(record: Record, junk: Any) -> None:
+    for name in ("time", "com", "phase"):
+        with pytest.raises(InvalidInput) as caught:
+            dataclasses.replace(record, **{name: junk})
+        assert caught.value.argument
 
 
 def test_wrong_shape_is_refused_in_one_sentence(record: Record) -> None:
@@ -131,11 +169,11 @@ def test_wrong_shape_is_refused_in_one_sentence(record: Record) -> None:
 
 def test_physical_equal_sees_one_bit_but_no_stopwatch(record: Record) -> None:
     slow = dataclasses.replace(record, tick_time=2 * record.tick_time, qp_time=record.qp_time + 1)
-    assert record.physical_equal(slow.with_settings(wall_time=99.0, command="again"))
+    assert record.physical_equal(slow.with_run(wall_time=99.0, command="again"))
     com = record.com.copy()
     com[3, 1] = np.nextafter(com[3, 1], 9)
     assert record.differences(dataclasses.replace(record, com=com)) == ("com",)
-    assert record.differences(record.with_settings(seed=1)) == ("settings['seed']",)
+    assert record.differences(record.with_run(seed=1)) == ("run.seed",)
     assert "step_pose" in record.differences(walk_record(5))
 
 
@@ -158,7 +196,8 @@ def test_a_missing_or_newer_file_gets_one_sentence(record: Record, tmp_path: Pat
     path = tmp_path / "x.npz"
     with pytest.raises(InvalidInput, match=re.escape(f"record file {path} does not exist.")):
         Record.load(path)
-    record.with_settings(format=99).save(path)
+    text = np.array(json.dumps({"format": 99, **record.run.as_dict()}))
+    np.savez(path, settings=text, **record.arrays(), **record.plans.arrays())
     sentence = f"{path} was written by a newer preview_walk; this one reads records up to format 1."
     with pytest.raises(InvalidInput, match=re.escape(sentence)):
         Record.load(path)
@@ -204,64 +243,6 @@ def test_a_missing_folder_gets_one_sentence(record: Record, tmp_path: Path) -> N
         OutputError, match=re.escape(f"cannot write {path}: No such file or directory.")
     ):
         record.save(path)
-
-
-def test_every_revision_of_a_plan_comes_back(tmp_path: Path) -> None:
-    plan = walk_plan(6)
-    t1, t2 = plan.steps[1].land, plan.steps[2].land
-    stopped = plan.replace_after(t1, [])
-    longer = stopped.replace_after(t1, walk_plan(8).steps[len(stopped.steps) :])
-    plans = [plan, stopped, longer, longer.since(t2)]
-    times = [0.0, t1, t2, t2 + 0.01]
-    recorder = Recorder({"control_hz": 500}, SIZES)
-    for time, each in zip(times, plans, strict=True):
-        recorder.plan(time, each)
-        recorder.plan(time + 1e-3, each)  # the same plan again is nothing new
-    recorder.write(time=0.0)
-    loaded = Record.load(recorder.finish().save(tmp_path / "x.npz"))
-    assert len(loaded.plans) == 4
-    for time, each, revision in zip(times, plans, loaded.plans, strict=True):
-        assert revision.time == time
-        assert revision.end == each.end
-        np.testing.assert_array_equal(revision.land, [s.land for s in each])
-        np.testing.assert_array_equal(revision.lift, [s.lift for s in each])
-        np.testing.assert_array_equal(revision.pose, [s.pose for s in each])
-        for foot in ("left", "right"):
-            last = [s.pose for s in each if s.foot == foot][-1]
-            np.testing.assert_array_equal(revision.last_pose(foot), last)
-    assert [p.time for p in loaded.plans[1:3]] == times[1:3]
-    with pytest.raises(IndexError):
-        loaded.plans[4]
-
-
-def test_walked_steps_survive_edits_and_forgetting() -> None:
-    plan = walk_plan(8)
-    recorder = Recorder({"control_hz": 500}, SIZES)
-    recorder.plan(0.0, plan)
-    for step in plan.steps[2:6]:
-        recorder.plan(step.land + 0.01, plan.since(step.land + 0.01))
-    plans = recorder.finish().plans
-    until = plan.steps[6].land
-    np.testing.assert_array_equal(plans.walked(until).landings, [s.land for s in plan.steps[:7]])
-    np.testing.assert_array_equal(plans.walked(-1.0).landings, [])
-    np.testing.assert_array_equal(plans.walked(1e9).landings, [s.land for s in plan.steps])
-
-
-def test_a_retargeted_step_counts_where_it_landed() -> None:
-    plan = walk_plan(6)
-    step = plan.steps[2]
-    pose = step.pose.copy()
-    pose[0, 3] += 0.05
-    middle = 0.5 * (step.lift + step.land)
-    recorder = Recorder({"control_hz": 500}, SIZES)
-    recorder.plan(0.0, plan)
-    edited = plan.retarget(middle, pose, step.land + 0.05)
-    recorder.plan(middle, edited)
-    plans = recorder.finish().plans
-    walked = plans.walked(1e9)
-    np.testing.assert_array_equal(walked.landings, [s.land for s in edited.steps])
-    np.testing.assert_array_equal(walked.pose[4], pose)
-    assert plans.plan_kept[1] == 4  # two standing soles and two steps are shared
 
 
 def test_package_versions_name_the_engines() -> None:

@@ -144,7 +144,7 @@ def test_a_strong_push_moves_the_next_foothold_its_way(
     step = short_plan.steps[2]
     push = Push(step.lift + 0.05, 0.2, (300.0, 0.0, 0.0))
     record = pw.simulate(talos, short_plan, pushes=[push])
-    assert not record.settings["fell"]
+    assert not record.run.fell
     assert len(record.plans) > 1
     planned = record.plans[0].pose[4]
     walked = record.plans.walked(record.time[-1]).pose[4]

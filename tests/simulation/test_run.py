@@ -24,13 +24,13 @@ def test_a_fall_ends_the_run_and_the_record_stays(talos: Robot, short_plan: Foot
     record = walk.run().record()
     assert walk.fallen
     assert walk.finished
-    assert record.settings["fell"]
-    assert not record.settings["interrupted"]
-    reason = record.settings["fall_reason"]
+    assert record.run.fell
+    assert not record.run.interrupted
+    reason = record.run.fall_reason
     assert re.fullmatch(
         r"the torso leaned \d+ degrees|the CoM sank to \d\.\d\d m of 0\.88 m above the feet", reason
     )
-    fall = record.settings["fall_time"]
+    fall = record.run.fall_time
     assert 2.0 < fall < 4.0
     assert record.time[-1] == pytest.approx(fall)
     assert np.isfinite(record.com).all()
@@ -50,8 +50,8 @@ def test_ctrl_c_ends_the_run_and_the_record_stays(talos: Robot, short_plan: Foot
             raise KeyboardInterrupt
 
     record = pw.simulate(talos, short_plan, progress=progress)
-    assert record.settings["interrupted"]
-    assert not record.settings["fell"]
+    assert record.run.interrupted
+    assert not record.run.fell
     assert record.time[-1] == pytest.approx(seen[-1][0] - record.dt)
     assert all(np.isfinite(array[1:]).all() for array in (record.q, record.zmp, record.tau))
     assert record.summary().final_position_error is None
@@ -110,7 +110,7 @@ def test_stands_where_it_is_told(talos: Robot) -> None:
     record = walk.record()
     assert record.time[-1] == pytest.approx(STAND_AFTER, abs=2 * record.dt)
     assert record.com[-1, :2] == pytest.approx((2.0, -1.0), abs=2e-3)
-    assert record.settings["seed"] == 5
+    assert record.run.seed == 5
     heading = np.arctan2(record.left_foot[-1, 1, 0], record.left_foot[-1, 0, 0])
     assert heading == pytest.approx(0.7, abs=1e-3)
     weight = talos.mass * 9.81
@@ -122,15 +122,19 @@ def test_the_record_knows_what_the_run_was_made_of(talos: Robot, short_plan: Foo
     gains = TrackingGains(dcm=5.0)
     push = pw.Push(1.0, 0.1, (1.0, 2.0, 3.0), point=(0.0, 0.0, 0.3))
     walk = pw.Walk(talos, short_plan, pushes=[push], gains=gains, seed=3, friction=0.7)
-    settings = walk.run(until=0.1).record().settings
-    assert settings["robot"] == "talos"
-    assert settings["mass"] == talos.mass
-    assert settings["tau_max"] == talos.effort.tolist()
-    assert settings["joint_names"] == list(talos.joint_names)
-    assert (settings["seed"], settings["friction"], settings["solver"]) == (3, 0.7, "osqp")
-    assert (settings["physics_hz"], settings["control_hz"]) == (1000, 500)
-    assert settings["pushes"][0]["point"] == [0.0, 0.0, 0.3]
-    assert settings["gains"]["dcm"] == 5.0
+    record = walk.run(until=0.1).record()
+    run = record.run
+    assert run.robot == "talos"
+    assert run.mass == talos.mass
+    assert run.tau_max == tuple(talos.effort.tolist())
+    assert run.joint_names == tuple(talos.joint_names)
+    assert (run.seed, run.friction, run.solver) == (3, 0.7, "osqp")
+    assert (run.physics_hz, run.control_hz) == (1000, 500)
+    assert run.pushes[0]["point"] == (0.0, 0.0, 0.3)
+    assert run.gains["dcm"] == 5.0
+    assert run.swing_height == walk.walker.swing_height
+    dcm = record.com[:, :2] + record.com_velocity[:, :2] / run.omega
+    np.testing.assert_array_equal(record.dcm, dcm)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole, support_margin, support_polygon
 from preview_walk.record.record import Record
-from preview_walk.record.summary import torque_ratios
+from preview_walk.record.summarize import torque_ratios
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.walk import STAND_AFTER
@@ -54,10 +54,10 @@ def test_it_looks_like_walking(default_walk: Record) -> None:
         assert tilt(pose).max() < np.radians(1.0)
         landed = np.flatnonzero((force[1:] > 20.0) & (force[:-1] <= 20.0))
         assert np.gradient(pose[:, 2, 3], r.dt)[landed].min() > -0.15
-        assert force.max() < 1.2 * r.settings["mass"] * r.settings["gravity"]
+        assert force.max() < 1.2 * r.run.mass * r.run.gravity
         assert pose[:, 2, 3].max() > 0.04
         assert pose[:, 2, 3].min() > -0.005
-    names = r.settings["joint_names"]
+    names = r.run.joint_names
     joints = {name: r.q[:, 7 + k] for k, name in enumerate(names)}
     for knee in ("leg_left_4_joint", "leg_right_4_joint"):
         assert joints[knee].min() > np.radians(20.0)
@@ -74,7 +74,7 @@ def test_the_record_holds_what_was_planned_and_what_was_measured(default_walk: R
         assert len(array) == len(r)
         # The ZMP has no meaning before the first contact force is measured.
         assert np.isfinite(array[1:]).all(), name
-    assert (torque_ratios(r)[:, r.tau.any(axis=0)] <= 1.0 + 1e-12).all()
+    assert (torque_ratios(r, r.run)[:, r.tau.any(axis=0)] <= 1.0 + 1e-12).all()
     assert (r.phase == r.phase_ref).mean() > 0.98
     k = len(r) // 2
     omega = r.com_velocity[k, :2] / (r.dcm - r.com[:, :2])[k]
@@ -89,7 +89,7 @@ def test_the_record_holds_what_was_planned_and_what_was_measured(default_walk: R
 
 
 def test_the_zmp_is_that_of_the_forces_and_on_the_soles(default_walk: Record) -> None:
-    r, sole = default_walk, Sole(*default_walk.settings["sole"])
+    r, sole = default_walk, Sole(*default_walk.run.sole)
     for k in range(1, len(r), 50):
         wrenches = (r.left_force[k], r.right_force[k])
         feet = (r.left_foot[k], r.right_foot[k])
@@ -147,7 +147,7 @@ def test_walks_the_same_anywhere_in_any_direction(talos: Robot, short_walk: Reco
 def test_walks_on_a_floor_of_friction_a_half(talos: Robot, short_plan: FootstepPlan) -> None:
     record = pw.simulate(talos, short_plan, friction=0.5)
     assert_within_the_bars(record)
-    assert record.settings["friction"] == 0.5
+    assert record.run.friction == 0.5
     for foot in FEET:
         force = getattr(record, f"{foot}_force")
         loaded = force[force[:, 2] > 20.0]

@@ -230,7 +230,7 @@ def test_a_walk_with_nan_in_one_measured_velocity_stops_and_says_so(make_walk: M
     walk.world.sense = broken  # type: ignore[method-assign]
     walk.run()
     assert walk.fallen
-    assert walk.record().settings["fall_reason"] == (
+    assert walk.record().run.fall_reason == (
         "the measured state must be finite, got nan for the velocity of joint 'arm_left_3_joint'."
     )
 
