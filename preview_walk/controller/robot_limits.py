@@ -9,14 +9,12 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.footsteps.limits import GaitLimits
-from preview_walk.geometry.support import Sole
 from preview_walk.robots.robot import Robot
 
 
 def gait_limits(robot: Robot) -> GaitLimits:
     """Return the bounds of the steps that the robot's legs can make."""
-    sole = Sole(robot.soles["left"].half_length, robot.soles["left"].half_width)
-    return GaitLimits.for_leg(robot.leg_length, robot.step_width, sole)
+    return GaitLimits.for_leg(robot.leg_length, robot.step_width, robot.sole)
 
 
 SPEED_SHARE = 0.72
