@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.building.posture import walking_posture
+from preview_walk.robots.building.rebuild import rebuild
 from preview_walk.robots.building.statics import carrying_torques
 from preview_walk.robots.load import load_robot
 from preview_walk.robots.picture import write_picture
@@ -19,15 +20,21 @@ from preview_walk.robots.reading.mjcf import compile_spec
 from preview_walk.robots.reading.shapes import add_shapes
 from preview_walk.robots.reading.source import read_source
 from preview_walk.robots.robot import Robot
+from preview_walk.robots.standing import stance_of
 from preview_walk.types import FEET, Array
 
 
 @dataclass(frozen=True, eq=False)
 class Inspection:
-    """What is known about a model: each entry is one line; `robot` is None if it cannot walk.
+    """What is known about a model, in sentences.
 
-    `found` is read from the model, `assumed` was adapted or guessed, `missing` would be nice to
-    have, `problems` will not work.
+    Attributes:
+        source: where the model came from.
+        found: what is read from the model.
+        assumed: what was adapted or guessed.
+        missing: what would be nice to have.
+        problems: what will not work.
+        robot: the robot; None if it cannot walk.
     """
 
     source: str
@@ -50,10 +57,18 @@ class Inspection:
             parts += [f"  - {line}" for line in lines] or ["  nothing"]
         return "\n".join(parts)
 
+    def __repr__(self) -> str:
+        """Say it in one line."""
+        return f"<Inspection of '{self.source}': {len(self.problems)} problem(s)>"
+
     def write_picture(self, path: str | Path) -> None:
         """Write a picture of the stance with the soles in red (left) and green (right).
 
-        Raises `RobotError` where the model cannot stand.
+        Args:
+            path: the .png file to write.
+
+        Raises:
+            RobotError: the model cannot stand.
         """
         if self.robot is None:
             raise RobotError(f"no picture of '{self.source}': {self.problems[0]}")
@@ -63,7 +78,8 @@ class Inspection:
 def inspect_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Inspection:
     """Return what is found, assumed, missing and wrong in a robot's model; never raises for it.
 
-    `model` is what `load_robot` takes.
+    Args:
+        model: what `load_robot` takes.
     """
     source = str(model) if isinstance(model, (str, Path)) else "the model in hand"
     try:
@@ -132,9 +148,10 @@ def _missing(robot: Robot) -> tuple[str, ...]:
             lines.append(f"{what}: none of the joints has any")
         elif names:
             lines.append(f"{what}: {', '.join(names)}")
-    urdf = robot.blueprint.urdf
-    if urdf is not None:
-        lost = sorted(set(add_shapes(urdf, urdf.spec.copy(), "visual")))
+    plan = robot.blueprint
+    if plan.urdf is not None:
+        spec, _ = rebuild(plan.tree, plan.parts.base, plan.locked, looks=False)
+        lost = sorted(set(add_shapes(plan.urdf, spec, "visual")))
         if lost:
             lines.append(f"visual meshes that are not found or not readable: {', '.join(lost)}")
     return tuple(lines)
@@ -143,22 +160,17 @@ def _missing(robot: Robot) -> tuple[str, ...]:
 def one_leg_torques(robot: Robot) -> Array:
     """Return the torques (nv - 6,) in N·m that hold the robot still over its left sole.
 
-    Statics: the CoM above the sole's centre, all weight on it. Raises `RobotError` where the legs
-    cannot lean so far.
+    Statics: the CoM above the sole's centre, all weight on it.
+
+    Raises:
+        RobotError: the legs cannot lean so far.
     """
     model = robot.pin
     data = model.createData()
     pin.framesForwardKinematics(model, data, robot.posture)
     hip = float(data.oMi[robot.legs["left"].hip].translation[2])
-    q = walking_posture(
-        model,
-        robot.posture,
-        {foot: robot.soles[foot].frame for foot in FEET},
-        robot.legs,
-        robot.step_width,
-        hip / robot.leg_length,
-        lean=robot.step_width / 2,
-    )
+    lean = robot.step_width / 2
+    q = walking_posture(stance_of(robot), robot.posture, hip / robot.leg_length, lean)
     return carrying_torques(model, q, robot.soles["left"].frame)
 
 

@@ -20,9 +20,14 @@ from preview_walk.robots.robot import Robot
 
 
 def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
-    """Return a robot by its catalogue name, its .urdf, .xml or .json file, or a MuJoCo model.
+    """Return a robot ready to walk.
 
-    Raises `RobotError` for an unknown name or a model that cannot walk.
+    Args:
+        model: a name of the catalogue, the path of a .urdf, .xml, .mjcf or .json file, or a MuJoCo
+            model or spec in hand, which is left as it is.
+
+    Raises:
+        RobotError: an unknown name, or a model that cannot walk; says what is in the way.
     """
     if isinstance(model, mujoco.MjSpec):
         model, notes = compile_spec(model.copy(), "the spec")
@@ -49,6 +54,9 @@ def visual_model(robot: Robot) -> mujoco.MjModel:
 
     Meshes that are missing, or that need trimesh or pycollada where these are not installed, are
     left out; a robot that has none at all is drawn as bones from joint to joint.
+
+    Args:
+        robot: the robot, or a copy of one.
     """
     plan = robot.blueprint
     spec, _ = rebuild(plan.tree, plan.parts.base, plan.locked, looks=plan.urdf is None)

@@ -27,7 +27,11 @@ def stance_image(
 ) -> np.ndarray[Any, np.dtype[np.uint8]]:
     """Return a picture (height, width, 3) of the walking posture from the robot's front left.
 
-    `azimuth` is the camera's heading in degrees, 180 looking the robot in the face.
+    Args:
+        robot: the robot.
+        width: of the picture, pixels.
+        height: of the picture, pixels.
+        azimuth: heading of the camera in degrees, 180 looking the robot in the face.
     """
     model = visual_model(robot)
     model.vis.global_.offwidth = max(width, model.vis.global_.offwidth)
@@ -56,7 +60,12 @@ def stance_image(
 
 
 def write_picture(robot: Robot, path: Path) -> None:
-    """Write the picture of the walking posture: front left beside the left side."""
+    """Write the picture of the walking posture: front left beside the left side.
+
+    Args:
+        robot: the robot.
+        path: the .png file to write.
+    """
     from matplotlib.image import imsave
 
     views = [stance_image(robot, azimuth=azimuth) for azimuth in (145.0, 270.0)]

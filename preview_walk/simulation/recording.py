@@ -48,7 +48,7 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
 class WalkRecorder:
     """Records a plant and the walker that drives it, tick by tick."""
 
-    def __init__(self, plant: Plant, walker: Walker, pushes: Sequence[Push], **facts: Any) -> None:
+    def __init__(self, plant: Plant, walker: Walker, **facts: Any) -> None:
         """Note what the run is made of.
 
         Args:

@@ -15,6 +15,7 @@ from preview_walk.robots.building.statics import (
 )
 from preview_walk.robots.load import load_robot
 from preview_walk.robots.reading.description import catalogue
+from preview_walk.robots.standing import stance_of
 from preview_walk.types import FEET
 
 ROBOT = cache(load_robot)
@@ -68,12 +69,9 @@ def test_knees_hold_the_walking_posture_which_is_no_straighter_than_it_must_be(n
 
 def test_half_the_knee_torque_makes_a_robot_stand_straighter():
     robot = ROBOT("humanoid-walker")
-    soles = {foot: robot.soles[foot].frame for foot in FEET}
 
     def posture(effort):
-        return straightened(
-            robot.pin, robot.posture, soles, robot.legs, robot.step_width, effort * robot.effort
-        )
+        return straightened(stance_of(robot), robot.posture, effort * robot.effort)
 
     assert posture(1.0) is robot.posture
     assert CROUCHED < stretch_of(robot, posture(0.5)) < STRETCHED

@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.state import rotation_from_xyzw, to_mujoco
+from preview_walk.robots.state import to_mujoco
 from preview_walk.types import Array, Foot
 
 TOLERANCE = 1e-8
@@ -21,9 +21,14 @@ def disagreement(
 ) -> dict[str, float]:
     """Return the largest relative difference of every term between MuJoCo and Pinocchio.
 
-    `soles` gives each sole's MuJoCo site and Pinocchio frame. Compared on `states` seeded random
-    states: mass matrix (armature included), bias forces, CoM, sole positions and sole Jacobians,
+    Compared are mass matrix (armature included), bias forces, CoM, sole poses and sole Jacobians,
     all in MuJoCo's velocity convention.
+
+    Args:
+        mj: MuJoCo's model.
+        model: Pinocchio's.
+        soles: MuJoCo site and Pinocchio frame of each sole.
+        states: how many seeded random states to compare at.
     """
     random = np.random.default_rng(0)
     data, pin_data = mujoco.MjData(mj), model.createData()
@@ -53,7 +58,7 @@ def _terms(
     soles: Mapping[Foot, tuple[str, int]],
 ) -> dict[str, tuple[Array, Array]]:
     """Return MuJoCo's and Pinocchio's value of every term at a state."""
-    rotation = rotation_from_xyzw(*q[3:7])
+    rotation = pin.Quaternion(q[3:7]).toRotationMatrix()
     # v_pin = turn @ v_mj; its rate of change adds a Coriolis term to the base's acceleration.
     turn = np.eye(model.nv)
     turn[:3, :3] = rotation.T
@@ -93,7 +98,16 @@ def _terms(
 def check_agreement(
     mj: mujoco.MjModel, model: pin.Model, soles: Mapping[Foot, tuple[str, int]]
 ) -> None:
-    """Raise `RobotError` naming the worst term where the two engines disagree."""
+    """Compare the two engines at two states.
+
+    Args:
+        mj: MuJoCo's model.
+        model: Pinocchio's.
+        soles: MuJoCo site and Pinocchio frame of each sole.
+
+    Raises:
+        RobotError: they disagree; names the worst term.
+    """
     worst = disagreement(mj, model, soles)
     term = max(worst, key=lambda name: worst[name])
     if not worst[term] < TOLERANCE:

@@ -25,8 +25,12 @@ def assemble(
 ) -> None:
     """Add floor, light, soles and one motor per joint to a spec, in place.
 
-    The soles and the floor are the only geoms that touch. Joints named in `efforts` get a motor of
-    that torque limit (N·m) and of their name; the others stay passive.
+    The soles and the floor are the only geoms that touch.
+
+    Args:
+        spec: the robot.
+        soles: where the soles are.
+        efforts: torque limits (N·m) of the joints that get a motor, by name; others stay passive.
     """
     for geom in spec.geoms:
         geom.contype, geom.conaffinity, geom.group = 0, 0, 2
@@ -37,7 +41,7 @@ def assemble(
         body.add_geom(
             name=sole_name(foot),
             type=mujoco.mjtGeom.mjGEOM_BOX,
-            size=(sole.half_length, sole.half_width, SOLE_THICKNESS / 2),
+            size=(sole.size.half_length, sole.size.half_width, SOLE_THICKNESS / 2),
             pos=sole.position + sole.rotation[:, 2] * SOLE_THICKNESS / 2,
             quat=quat,
             mass=0.0,

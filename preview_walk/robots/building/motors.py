@@ -17,10 +17,15 @@ _JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 def joint_efforts(tree: Tree, implied: bool, mass: float) -> tuple[dict[int, float], list[str]]:
     """Return the largest torque (N·m) of every joint with a motor, by joint id, and remarks.
 
-    `implied` says that every joint has a motor even without an actuator, as in a URDF. A motor
-    without a force limit gets `ASSUMED` times the robot's mass (kg).
+    A motor without a force limit gets `ASSUMED` times the robot's mass.
 
-    Raises `RobotError` where the model has no motors at all.
+    Args:
+        tree: the model.
+        implied: whether every joint has a motor even without an actuator, as in a URDF.
+        mass: of the robot, kg.
+
+    Raises:
+        RobotError: the model has no motors at all.
     """
     mj = tree.mj
     push: dict[int, tuple[float, float]] = {}

@@ -22,7 +22,7 @@ _HINGE, _SLIDE, _FREE = (
 
 
 def placement(position: Array, quaternion_wxyz: Array) -> pin.SE3:
-    """Return the SE3 of a MuJoCo position (3,) and unit quaternion (w, x, y, z)."""
+    """Return the SE3 of a MuJoCo position (3,), m, and unit quaternion (w, x, y, z)."""
     w, x, y, z = quaternion_wxyz
     return pin.SE3(pin.Quaternion(w, x, y, z).normalized().toRotationMatrix(), np.array(position))
 
@@ -34,7 +34,12 @@ def pinocchio_model(mj: mujoco.MjModel, root: int) -> pin.Model:
     so that joint velocities and torques need no permutation. Bodies become frames of their name.
     Armature is copied; joint damping and dry friction are not part of Pinocchio's dynamics.
 
-    Raises `RobotError` where a joint has no Pinocchio equivalent.
+    Args:
+        mj: MuJoCo's model.
+        root: the body on the free joint.
+
+    Raises:
+        RobotError: a joint that has no Pinocchio equivalent.
     """
     model = pin.Model()
     model.name = "robot"

@@ -10,6 +10,12 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.building.inverse_kinematics import (
+    Stop,
+    gauss_newton,
+    leg_coordinates,
+    sole_rows,
+)
 from preview_walk.types import FEET, Array, Foot
 
 LATERAL = 0.8
@@ -21,9 +27,15 @@ MARGIN = 0.05
 
 @dataclass(frozen=True)
 class Leg:
-    """A leg's Pinocchio joints, pelvis first; three bend it: `hip`, `knee` and `ankle`.
+    """A leg: its Pinocchio joints, three of which bend it.
 
-    `bend` is the sign of a flexing knee's angle; `length` (m) the sum of thigh, shank and foot.
+    Attributes:
+        joints: all of them, pelvis first.
+        hip: the one that swings the thigh.
+        knee: the one that bends the leg.
+        ankle: the one that pitches the foot.
+        bend: sign of a flexing knee's angle.
+        length: sum of thigh, shank and foot, m.
     """
 
     joints: tuple[int, ...]
@@ -44,10 +56,17 @@ def find_leg(model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lat
     """Return a leg by its joints: those about the `lateral` direction (3,) bend it.
 
     The leg's length is the longest distance from hip to sole: between the axes of hip, knee and
-    ankle, seen along the knee's axis, and from the ankle to the sole plane. `q` (nq,) is any
-    posture in which the leg's side is `lateral` in world axes.
+    ankle, seen along the knee's axis, and from the ankle to the sole plane.
 
-    Raises `RobotError` where fewer than three joints bend the leg.
+    Args:
+        model: the robot.
+        q: any posture (nq,) in which the leg's side is `lateral`.
+        joints: the leg's joints, pelvis first.
+        sole: the sole frame.
+        lateral: the direction (3,) to the left, in world axes.
+
+    Raises:
+        RobotError: fewer than three joints bend the leg.
     """
     data = model.createData()
     pin.framesForwardKinematics(model, data, q)
@@ -95,9 +114,14 @@ def resting(
 ) -> Array:
     """Return a configuration (nq,): `named` joints at their angles, the rest inside their limits.
 
-    The rest is as `seen` in a keyframe, else as in `q` (nq,).
+    Args:
+        model: the robot, with its joint limits.
+        q: configuration (nq,) of what neither of the others names.
+        seen: joint angles of a keyframe (rad) by name.
+        named: joint angles of a description (rad) by name.
 
-    Raises `RobotError` for an unknown joint name or an angle outside the joint's limits.
+    Raises:
+        RobotError: an unknown joint name, or an angle outside the joint's limits.
     """
     q = np.array(q)
     index = {str(model.names[j]): model.joints[j].idx_q for j in range(2, model.njoints)}
@@ -122,81 +146,87 @@ def resting(
     return q
 
 
-def walking_posture(
-    model: pin.Model,
-    q: Array,
-    soles: Mapping[Foot, int],
-    legs: Mapping[Foot, Leg],
-    width: float,
-    stretch: float,
-    lean: float = 0.0,
-) -> Array:
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """What a walking posture stands on.
+
+    Attributes:
+        model: the robot, with its joint limits.
+        soles: the sole frames.
+        legs: the legs above them.
+        width: distance of the sole centres, m.
+    """
+
+    model: pin.Model
+    soles: Mapping[Foot, int]
+    legs: Mapping[Foot, Leg]
+    width: float
+
+    @property
+    def free(self) -> list[int]:
+        """The velocity coordinates that inverse kinematics may move: base and legs."""
+        return leg_coordinates(self.model, {foot: leg.joints for foot, leg in self.legs.items()})
+
+
+def walking_posture(stance: Stance, q: Array, stretch: float, lean: float = 0.0) -> Array:
     """Return the walking posture (nq,) by inverse kinematics, the robot facing x.
 
-    `q` (nq,) holds the upright base orientation and all angles but the legs'. These follow from:
-    `soles` (Pinocchio frames) flat, level, facing forward and `width` (m) apart; hips `stretch`
-    times the leg's length above the soles; base upright; CoM over the midpoint of the soles, which
-    lies at the origin, or `lean` (m) to its left.
+    The soles are flat, level and facing forward, the base is upright, and the CoM is over the
+    midpoint of the soles, which lies at the origin.
 
-    Raises `RobotError` where no such posture exists.
+    Args:
+        stance: soles and legs.
+        q: configuration (nq,) with the upright base's orientation and all angles but the legs'.
+        stretch: height of the hips above the soles over the leg's length.
+        lean: how far the CoM is to the left of the midpoint, m.
+
+    Raises:
+        RobotError: no such posture exists.
     """
+    model, legs = stance.model, stance.legs
     q = np.array(q)
     upright = pin.Quaternion(q[3:7]).toRotationMatrix()
-    data = model.createData()
     forward = knees_forward(model, legs)
-    free = list(range(6)) + [model.joints[j].idx_v for f in FEET for j in legs[f].joints]
     lateral = np.sign(_axes(model, q)[1])
     for leg in legs.values():
         for joint, angle in ((leg.hip, -0.4), (leg.knee, 0.8), (leg.ankle, -0.4)):
             bend = model.joints[joint]
             q[bend.idx_q] = forward * lateral[bend.idx_v] * angle
     height = stretch * min(leg.length for leg in legs.values())
-    target: dict[Foot, pin.SE3] = {
-        "left": pin.SE3(np.eye(3), np.array([0.0, width / 2, 0.0])),
-        "right": pin.SE3(np.eye(3), np.array([0.0, -width / 2, 0.0])),
-    }
-    for _ in range(200):
-        error, jacobian = _residual(model, data, q, upright, soles, legs, target, (lean, height))
-        if np.abs(error).max() < 1e-10:
-            return np.asarray(q)
-        step = np.zeros(model.nv)
-        step[free] = np.linalg.lstsq(jacobian[:, free], -error, rcond=1e-8)[0]
-        step *= min(1.0, 0.3 / np.abs(step).max())
-        q = pin.integrate(model, q, step)
-    raise RobotError(
-        f"no walking posture found: the soles stay {np.abs(error).max():.3g} m or rad from "
-        f"flat, level and {height:.3f} m below the hips"
-    )
+    data = model.createData()
+
+    def residual(q: Array) -> tuple[Array, Array]:
+        return _residual(stance, data, q, upright, (lean, height))
+
+    q, left = gauss_newton(model, q, stance.free, residual, Stop(1e-10, 200))
+    if not left < 1e-10:
+        raise RobotError(
+            f"no walking posture found: the soles stay {left:.3g} m or rad from "
+            f"flat, level and {height:.3f} m below the hips"
+        )
+    return q
 
 
 def _residual(
-    model: pin.Model,
-    data: pin.Data,
-    q: Array,
-    upright: Array,
-    soles: Mapping[Foot, int],
-    legs: Mapping[Foot, Leg],
-    target: Mapping[Foot, pin.SE3],
-    goal: tuple[float, float],
+    stance: Stance, data: pin.Data, q: Array, upright: Array, goal: tuple[float, float]
 ) -> tuple[Array, Array]:
     """Return the residual (18,) and its Jacobian (18, nv); `goal`: CoM to the left, hip height."""
+    model = stance.model
     pin.computeJointJacobians(model, data, q)
     pin.updateFramePlacements(model, data)
     com = pin.centerOfMass(model, data, q)
     world = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
     errors, rows = [], []
-    for foot in FEET:
-        miss = target[foot].actInv(data.oMf[soles[foot]])
-        errors.append(pin.log6(miss).vector)
-        rows.append(
-            pin.Jlog6(miss)
-            @ pin.getFrameJacobian(model, data, soles[foot], pin.ReferenceFrame.LOCAL)
-        )
+    for foot, side in zip(FEET, (0.5, -0.5), strict=True):
+        target = pin.SE3(np.eye(3), np.array([0.0, side * stance.width, 0.0]))
+        error, jacobian = sole_rows(model, data, stance.soles[foot], target)
+        errors.append(error)
+        rows.append(jacobian)
     errors.append(pin.log3(data.oMi[1].rotation @ upright.T))
     rows.append(pin.getJointJacobian(model, data, 1, world)[3:])
     errors.append(com[:2] - (0.0, goal[0]))
     rows.append(pin.jacobianCenterOfMass(model, data, q)[:2])
-    hip = legs["left"].hip
+    hip = stance.legs["left"].hip
     errors.append(data.oMi[hip].translation[2:] - goal[1])
     rows.append(pin.getJointJacobian(model, data, hip, world)[2:3])
     return np.concatenate(errors), np.vstack(rows)

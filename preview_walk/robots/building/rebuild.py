@@ -11,8 +11,8 @@ from collections.abc import Collection
 import mujoco
 import numpy as np
 
-from preview_walk.robots.building.inertia import usable_inertia
 from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.reading.inertia import usable_inertia
 from preview_walk.robots.reading.shapes import finish
 from preview_walk.robots.reading.urdf import quaternion
 from preview_walk.types import Array
@@ -26,10 +26,16 @@ def rebuild(
 ) -> tuple[mujoco.MjSpec, list[str]]:
     """Return a spec of the robot below the body `base`, on a free joint, and remarks.
 
-    Joints in `locked` (ids) stay in their reference pose; springs are left out. With `looks` the
-    shown geoms come along, in their colours, touching nothing.
+    Joint springs are left out.
 
-    Raises `RobotError` for masses that cannot be.
+    Args:
+        tree: the source model.
+        base: the robot's floating body in it.
+        locked: joints (ids) that stay in their reference pose.
+        looks: whether the shown geoms come along, in their colours, touching nothing.
+
+    Raises:
+        RobotError: masses that cannot be.
     """
     mj = tree.mj
     spec = mujoco.MjSpec()

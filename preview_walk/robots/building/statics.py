@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 import pinocchio as pin
 
-from preview_walk.robots.building.posture import Leg, walking_posture
-from preview_walk.types import FEET, Array, Foot
+from preview_walk.robots.building.posture import Stance, walking_posture
+from preview_walk.types import FEET, Array
 
 CROUCHED = 0.92
 """Hip-to-sole distance of the walking posture over that of the stretched leg: the knees bend by
@@ -26,9 +24,12 @@ _TRIES = 7
 
 
 def carrying_torques(model: pin.Model, q: Array, sole: int) -> Array:
-    """Return the torques (nv - 6,) in N·m that hold a robot still in the posture q (nq,).
+    """Return the torques (nv - 6,) in N·m that hold a robot still on one leg.
 
-    One sole (a frame) carries its whole weight, the other none.
+    Args:
+        model: the robot.
+        q: its configuration (nq,).
+        sole: frame of the sole that carries the whole weight.
     """
     data = model.createData()
     gravity = pin.computeGeneralizedGravity(model, data, q)
@@ -39,27 +40,25 @@ def carrying_torques(model: pin.Model, q: Array, sole: int) -> Array:
     return np.asarray((gravity - jacobian.T @ wrench)[6:])
 
 
-def straightened(
-    model: pin.Model,
-    crouched: Array,
-    soles: Mapping[Foot, int],
-    legs: Mapping[Foot, Leg],
-    width: float,
-    effort: Array,
-) -> Array:
+def straightened(stance: Stance, crouched: Array, effort: Array) -> Array:
     """Return the walking posture (nq,) that the knees can hold.
 
-    It is the `crouched` one (nq,); where that asks for more than `KNEE_SHARE` of a knee's limit in
-    `effort` (n,), as much straighter as it takes, up to `STRETCHED`. The other arguments are those
-    of `walking_posture`.
+    It is the crouched one; where that asks for more than `KNEE_SHARE` of a knee's limit, as much
+    straighter as it takes, up to `STRETCHED`.
 
-    Raises `RobotError` where no walking posture exists.
+    Args:
+        stance: soles and legs.
+        crouched: the walking posture (nq,) at `CROUCHED`.
+        effort: torque limits (n,), N·m.
+
+    Raises:
+        RobotError: no walking posture exists.
     """
 
     def holds(posture: Array) -> bool:
         for foot in FEET:
-            knee = model.joints[legs[foot].knee].idx_v - 6
-            torque = carrying_torques(model, posture, soles[foot])[knee]
+            knee = stance.model.joints[stance.legs[foot].knee].idx_v - 6
+            torque = carrying_torques(stance.model, posture, stance.soles[foot])[knee]
             if abs(torque) > KNEE_SHARE * effort[knee]:
                 return False
         return True
@@ -69,8 +68,8 @@ def straightened(
     weak, strong = CROUCHED, STRETCHED
     for _ in range(_TRIES):
         middle = 0.5 * (weak + strong)
-        if holds(walking_posture(model, crouched, soles, legs, width, middle)):
+        if holds(walking_posture(stance, crouched, middle)):
             strong = middle
         else:
             weak = middle
-    return walking_posture(model, crouched, soles, legs, width, strong)
+    return walking_posture(stance, crouched, strong)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from preview_walk.errors import RobotError
+from preview_walk.geometry.support import Sole
+from preview_walk.robots.bounds import SMALLEST_SOLE
 from preview_walk.robots.finding.tree import Tree, nearest_axis
 from preview_walk.types import Array
 
 LAYER = 0.004
 """Height (m) of the layer above the lowest point whose points count as touching the floor."""
-
-SMALLEST = 0.01
-"""Smallest length and width (m) that a sole may have."""
 
 TILTED = np.radians(30.0)
 """Largest angle between the vertical and the normal of a foot's flat in the reference pose."""
@@ -27,20 +26,31 @@ _Geom = mujoco.mjtGeom
 
 @dataclass(frozen=True, eq=False)
 class SolePatch:
-    """A sole on a body: the sole frame's position (3,) and rotation (3, 3) there, half size (m)."""
+    """A sole on a body.
+
+    Attributes:
+        body: name of the body.
+        position: of the sole frame's origin in the body (3,), m.
+        rotation: of the sole frame in the body (3, 3).
+        size: the rectangle, half sizes in m.
+    """
 
     body: str
-    position: Array
-    rotation: Array
-    half_length: float
-    half_width: float
+    position: Array = field(repr=False)
+    rotation: Array = field(repr=False)
+    size: Sole
 
 
 def sole_axes(tree: Tree, body: int, up: Array, forward: Array) -> Array:
     """Return the sole frame's rotation (3, 3) in a body: its axes nearest to forward and up.
 
-    Axes of the body within 25 degrees count, else the directions themselves; `up` and `forward`
-    are in the world.
+    Axes of the body within 25 degrees count, else the directions themselves.
+
+    Args:
+        tree: the model.
+        body: the foot.
+        up: unit vector (3,) in the world.
+        forward: unit vector (3,) in the world.
     """
     rotation = tree.rotation(body)
     z = nearest_axis(up, rotation, np.radians(25))
@@ -54,12 +64,17 @@ def sole_axes(tree: Tree, body: int, up: Array, forward: Array) -> Array:
 def find_sole(tree: Tree, body: int, axes: Array) -> SolePatch:
     """Return the sole under a body: the largest rectangle inside what can touch flat ground.
 
-    `axes` (3, 3) is the sole frame's rotation in the body; a foot that is tilted in the reference
-    pose, so that it would stand on a point or an edge, is turned onto its nearest flat. All shapes
-    rigidly fixed to the body count: the corners of boxes, the lowest points of round shapes, the
-    vertices of meshes.
+    A foot that is tilted in the reference pose, so that it would stand on a point or an edge, is
+    turned onto its nearest flat. All shapes rigidly fixed to the body count: the corners of boxes,
+    the lowest points of round shapes, the vertices of meshes.
 
-    Raises `RobotError` where the body has no shapes, or no flat to stand on.
+    Args:
+        tree: the model, with its shapes.
+        body: the foot.
+        axes: rotation (3, 3) of the sole frame in the body.
+
+    Raises:
+        RobotError: the body has no shapes, or no flat to stand on.
     """
     points = np.array(list(_points(tree, body, axes[:, 2])))
     if not len(points):
@@ -67,26 +82,27 @@ def find_sole(tree: Tree, body: int, axes: Array) -> SolePatch:
             f"the foot '{tree.name(body)}' has no shapes to find its sole from; "
             "expected geometry, or a description that gives the sole's size and centre"
         )
-    patch = level = _patch(tree.name(body), points, axes)
+    center, half = level = _rectangle(points, axes)
     for _ in range(5):  # where round shapes touch the ground depends on the tilt
-        if min(patch.half_length, patch.half_width) >= 0.5 * SMALLEST:
-            return patch
+        if min(half) >= 0.5 * SMALLEST_SOLE:
+            return SolePatch(tree.name(body), center, axes, Sole(*half))
         axes = _turned(axes, _flat(points, axes[:, 2]))
         points = np.array(list(_points(tree, body, axes[:, 2])))
-        patch = _patch(tree.name(body), points, axes)
+        center, half = _rectangle(points, axes)
+    length, width = (2 * side for side in level[1])
     raise RobotError(
-        f"the foot '{tree.name(body)}' touches flat ground in {2 * level.half_length:.3f} x "
-        f"{2 * level.half_width:.3f} m; expected a flat sole of at least {SMALLEST} x {SMALLEST} m"
+        f"the foot '{tree.name(body)}' touches flat ground in {length:.3f} x {width:.3f} m; "
+        f"expected a flat sole of at least {SMALLEST_SOLE} x {SMALLEST_SOLE} m"
     )
 
 
-def _patch(body: str, points: Array, axes: Array) -> SolePatch:
-    """Return the largest rectangle among the lowest of the points (n, 3)."""
+def _rectangle(points: Array, axes: Array) -> tuple[Array, tuple[float, float]]:
+    """Return centre (3,) and half sizes of the largest rectangle among the lowest of points."""
     local = points @ axes
     height = float(local[:, 2].min())
     x0, x1, y0, y1 = inscribed_rectangle(local[local[:, 2] < height + LAYER, :2])
     center = axes @ np.array(((x0 + x1) / 2, (y0 + y1) / 2, height))
-    return SolePatch(body, center, axes, (x1 - x0) / 2, (y1 - y0) / 2)
+    return np.asarray(center), ((x1 - x0) / 2, (y1 - y0) / 2)
 
 
 def _flat(points: Array, up: Array) -> Array:

@@ -20,8 +20,14 @@ LEG_JOINTS = 6
 class Structure:
     """What stands for what in a model (MuJoCo body and joint ids), at its reference pose.
 
-    `legs` holds each leg's joints from the pelvis to the foot body `feet`; `up` and `forward` are
-    unit vectors (3,) in world axes.
+    Attributes:
+        base: the body that floats.
+        feet: the body of each foot.
+        legs: the joints of each leg, from the pelvis to the foot.
+        up: unit vector (3,) in world axes.
+        forward: unit vector (3,) in world axes.
+        torso: the body that is kept upright.
+        notes: remarks, one sentence each.
     """
 
     base: int
@@ -34,9 +40,15 @@ class Structure:
 
 
 def find_structure(tree: Tree, feet: Mapping[Foot, str], torso: str | None) -> Structure:
-    """Return a model's structure; `feet` (body names) and `torso` are taken where given.
+    """Return a model's structure.
 
-    Raises `RobotError` for an unknown body, and where there are no two legs of six joints.
+    Args:
+        tree: the model.
+        feet: names of the feet's bodies; empty to find them.
+        torso: name of the trunk's body; None to find it.
+
+    Raises:
+        RobotError: an unknown body, or no two legs.
     """
     notes: list[str] = []
     if feet:

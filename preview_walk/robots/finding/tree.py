@@ -17,12 +17,24 @@ class Tree:
     """A compiled model in its reference pose (`qpos0`): paths, joint chains and placements.
 
     World axes; bodies and joints are MuJoCo's ids.
+
+    Attributes:
+        mj: the model.
+        data: its state in the reference pose, placements only.
     """
 
     def __init__(self, mj: mujoco.MjModel) -> None:
         self.mj = mj
         self.data = mujoco.MjData(mj)
         mujoco.mj_kinematics(mj, self.data)
+
+    def __reduce__(self) -> tuple[type[Tree], tuple[mujoco.MjModel]]:
+        """Pickle the model; the rest follows from it."""
+        return type(self), (self.mj,)
+
+    def __repr__(self) -> str:
+        """Say it in one line."""
+        return f"<Tree of {self.mj.nbody - 1} bodies and {self.mj.njnt} joints>"
 
     def name(self, body: int) -> str:
         """Return a body's name, "body_ID" where it has none."""
@@ -100,7 +112,10 @@ class Tree:
 def nearest_axis(direction: Array, rotation: Array, within: float) -> Array:
     """Return the signed axis (3,) of a rotation nearest to a direction, in world axes.
 
-    Where none lies within the angle `within` (rad) the direction itself comes back.
+    Args:
+        direction: unit vector (3,) in world axes.
+        rotation: (3, 3), whose columns are the axes.
+        within: largest angle (rad) between the two; the direction itself comes back beyond it.
     """
     along = direction @ rotation
     index = int(np.argmax(np.abs(along)))

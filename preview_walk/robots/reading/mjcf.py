@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.building.inertia import MASSLESS, NO_MASS, usable_inertia
 from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.reading.inertia import MASSLESS, NO_MASS, usable_inertia
 
 STANDING = ("stand", "standing", "home", "default", "init", "initial", "neutral", "half_sitting")
 """Names of keyframes whose arms and trunk the walking posture takes over."""

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from preview_walk.robots.reading.meshes import GREY, add_piece, mesh_file, read_mesh
-from preview_walk.robots.reading.urdf import Element, Urdf, number, origin, quaternion, vector
+from preview_walk.robots.reading.urdf import Element, UrdfFile, number, origin, quaternion, vector
 from preview_walk.types import Array
 
 BONE = 0.025
@@ -19,12 +19,20 @@ VISUAL_GROUP = 2
 
 
 def add_shapes(
-    urdf: Urdf, spec: mujoco.MjSpec, kind: str, links: Collection[str] | None = None
+    urdf: UrdfFile, spec: mujoco.MjSpec, kind: str, links: Collection[str] | None = None
 ) -> list[str]:
-    """Add the shapes of `kind` ("visual" or "collision") of some or all links to a spec's bodies.
+    """Add the shapes of some or all links to the bodies of a spec.
 
-    They touch nothing and weigh nothing. Returns the addresses of meshes that are missing or that
-    could not be read.
+    They touch nothing and weigh nothing.
+
+    Args:
+        urdf: the file.
+        spec: its bodies, changed in place.
+        kind: "visual" or "collision".
+        links: names of the links whose shapes are added; None for all.
+
+    Returns:
+        The addresses of meshes that are missing or that could not be read.
     """
     materials = {
         str(material.get("name")): rgba
@@ -49,7 +57,7 @@ def add_shapes(
 
 
 def _add_shape(
-    urdf: Urdf,
+    urdf: UrdfFile,
     spec: mujoco.MjSpec,
     body: mujoco.MjsBody,
     element: Element,

@@ -17,7 +17,13 @@ from preview_walk.robots.reading.urdf import Urdf, read_urdf
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A model read: its tree, the URDF it came from (if any) and remarks."""
+    """A model read.
+
+    Attributes:
+        tree: the compiled model.
+        urdf: the URDF that it came from, if any.
+        notes: remarks, one sentence each.
+    """
 
     tree: Tree
     urdf: Urdf | None
@@ -32,7 +38,11 @@ class Source:
 def read_source(model: Description | mujoco.MjModel) -> Source:
     """Return the model that a description names, or a model in hand, as a tree.
 
-    Raises `RobotError` for files that cannot be read or compiled.
+    Args:
+        model: the description, or the model in hand.
+
+    Raises:
+        RobotError: a file that cannot be read or compiled.
     """
     if isinstance(model, mujoco.MjModel):
         return Source(Tree(model), None, ())
@@ -53,6 +63,13 @@ def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
 
     A URDF is read without shapes, because only the feet's matter: its collision shapes, else its
     visual ones.
+
+    Args:
+        source: the model.
+        body: the foot.
+
+    Raises:
+        RobotError: the foot needs a mesh that is missing or not readable.
     """
     if source.urdf is None:
         return source.tree, []
@@ -60,8 +77,8 @@ def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:
     links = {tree.name(part) for part in tree.rigid_part(body)}
     for kind in ("collision", "visual"):
         spec = source.urdf.spec.copy()
-        missing = add_shapes(source.urdf, spec, kind, links)
-        shaped = Tree(compile_spec(spec, f"'{source.urdf.path}'")[0])
+        missing = add_shapes(source.urdf.file, spec, kind, links)
+        shaped = Tree(compile_spec(spec, f"'{source.urdf.file.path}'")[0])
         if shaped.mj.ngeom:
             notes = (
                 []

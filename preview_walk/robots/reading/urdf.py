@@ -9,9 +9,10 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+import pinocchio as pin
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.building.inertia import usable_inertia
+from preview_walk.robots.reading.inertia import usable_inertia
 from preview_walk.types import Array
 
 Element = ElementTree.Element
@@ -23,16 +24,32 @@ _KINDS = {
 }
 
 
-@dataclass
-class Urdf:
-    """A URDF read: its spec (links and joints, no shapes) and what a spec does not hold.
+@dataclass(frozen=True, eq=False)
+class UrdfFile:
+    """A URDF's XML, and where its meshes are looked for.
 
-    `speed` maps joints to their speed limits (rad/s), `mimics` a joint that follows another one to
-    the one it follows, `flaws` what was wrong with inertias to the links concerned.
+    Attributes:
+        path: the file.
+        robot: its root element, <robot>.
     """
 
     path: Path
     robot: Element
+
+
+@dataclass(eq=False)
+class Urdf:
+    """A URDF read: its spec and what a spec does not hold.
+
+    Attributes:
+        file: the XML.
+        spec: links and joints without shapes, the root on a free joint.
+        speed: speed limits (rad/s) by joint name.
+        mimics: the joint that is followed, by the name of the one that follows.
+        flaws: what was wrong with inertias, and the links concerned.
+    """
+
+    file: UrdfFile
     spec: mujoco.MjSpec
     speed: dict[str, float] = field(default_factory=dict)
     mimics: dict[str, str] = field(default_factory=dict)
@@ -42,7 +59,11 @@ class Urdf:
 def read_urdf(path: Path) -> Urdf:
     """Return a URDF's links and joints as a MuJoCo spec whose root hangs on a free joint.
 
-    Raises `RobotError` for a file that is not a URDF, or whose tree, joints or masses cannot be.
+    Args:
+        path: the file.
+
+    Raises:
+        RobotError: a file that is not a URDF, or whose tree, joints or masses cannot be.
     """
     try:
         robot = ElementTree.parse(path).getroot()
@@ -70,7 +91,7 @@ def read_urdf(path: Path) -> Urdf:
         root = below[root][0][1]
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
-    read = Urdf(path, robot, spec)
+    read = Urdf(UrdfFile(path, robot), spec)
     base = spec.worldbody.add_body(name=root)
     base.add_freejoint(name="root")
     _inertia(read, base, links[root], moving=False)
@@ -174,19 +195,7 @@ def origin(element: Element) -> tuple[Array, Array]:
     """Return position (3,) and rotation (3, 3) of an element's <origin>."""
     at = element.find("origin")
     zero = (0.0, 0.0, 0.0)
-    return vector(at, "xyz", zero), rpy_matrix(vector(at, "rpy", zero))
-
-
-def rpy_matrix(rpy: Array) -> Array:
-    """Return the rotation matrix (3, 3) of roll, pitch and yaw (3,) about fixed axes."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
-    return np.array(
-        (
-            (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-            (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-            (-sp, cp * sr, cp * cr),
-        )
-    )
+    return vector(at, "xyz", zero), pin.rpy.rpyToMatrix(vector(at, "rpy", zero))
 
 
 def quaternion(rotation: Array) -> Array:

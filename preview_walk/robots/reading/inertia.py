@@ -21,13 +21,21 @@ NOT_SOLID = "an inertia that no solid has (the small moments raised)"
 def usable_inertia(
     body: str, mass: float, inertia: Array, moving: bool
 ) -> tuple[float, Array, Array, str]:
-    """Return mass (kg), principal inertias (3,), their axes (3, 3) and what was wrong, or "".
+    """Return a mass and an inertia that an engine can use.
 
-    `inertia` (3, 3) in kg·m² is about the centre of mass; `moving` says that the body hangs on a
-    joint of its own: such a body needs a mass and an inertia. Principal inertias that no solid can
-    have (one larger than the sum of the others) are raised.
+    Principal inertias that no solid can have (one larger than the sum of the others) are raised.
 
-    Raises `RobotError` for a mass or an inertia that is not a number or is negative.
+    Args:
+        body: its name.
+        mass: in kg.
+        inertia: (3, 3) about the centre of mass, kg·m².
+        moving: whether the body hangs on a joint of its own: it then needs a mass and an inertia.
+
+    Returns:
+        Mass (kg), principal inertias (3,), their axes (3, 3), and what was wrong, or "".
+
+    Raises:
+        RobotError: a mass or an inertia that is not a number or is negative.
     """
     if not (np.isfinite(mass) and np.isfinite(inertia).all()):
         diagonal = ", ".join(f"{moment:g}" for moment in np.diag(inertia))
