@@ -8,7 +8,7 @@ from math import exp, expm1, inf, isfinite
 
 import numpy as np
 
-from preview_walk.capturability.program import Polygon, CaptureStep
+from preview_walk.capturability.program import CaptureStep, Polygon
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.support import Sole
 from preview_walk.preview.cart_table import natural_frequency
