@@ -27,7 +27,7 @@ from .footsteps.goals import to_pose as to_pose
 from .footsteps.limits import GaitLimits as GaitLimits
 from .footsteps.plan import FootstepPlan as FootstepPlan
 from .footsteps.planner import FootstepPlanner as FootstepPlanner
-from .footsteps.planner import Stride as Stride
+from .footsteps.stride import Stride as Stride
 from .footsteps.velocity import follow_velocity as follow_velocity
 
 # The walking pattern: references as functions of a plan and time.

@@ -247,7 +247,7 @@ def _naming(option: str, known: Mapping[str, str] = MappingProxyType({})) -> Ite
     except OutputError:
         raise
     except PreviewWalkError as error:
-        words = re.findall(r"\w+", str(error))
+        words = [getattr(error, "argument", None), *re.findall(r"\w+", str(error))]
         name = next((known[word] for word in words if word in known), option)
         raise InvalidInput(f"{name}: {str(error).rstrip('.')}.") from error
 

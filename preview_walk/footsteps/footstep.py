@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any, Literal
 
+from preview_walk.arguments import SMALLEST, finite_number, foot_of, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.poses import as_pose, yaw_of
-from preview_walk.types import FEET, Array, Foot
+from preview_walk.types import Array, Foot
 
 _LAB_KEYS = ("foot", "pos", "time", "type")
 
@@ -16,6 +17,8 @@ _LAB_KEYS = ("foot", "pos", "time", "type")
 @dataclass(frozen=True, eq=False)
 class Footstep:
     """One sole on the ground: where it is put down, and when the foot flies there.
+
+    It answers to the walking lab's keys (foot, pos, time, type) as a dictionary does.
 
     Attributes:
         foot: "left" or "right".
@@ -38,17 +41,21 @@ class Footstep:
     again: bool = False
 
     def __post_init__(self) -> None:
-        if self.foot not in FEET:
-            raise InvalidInput(f"foot must be 'left' or 'right', got {self.foot!r}.")
-        if self.type not in ("stance", "swing_end"):
-            raise InvalidInput(f"type must be 'stance' or 'swing_end', got {self.type!r}.")
-        object.__setattr__(self, "pose", as_pose(self.pose, f"pose of the {self.foot} footstep"))
-        lift, land = float(self.lift), float(self.land)
-        ordered = lift == land if self.type == "stance" else lift < land
-        if not (isfinite(lift) and isfinite(land) and ordered):
-            allowed = "lift == land" if self.type == "stance" else "lift < land"
+        """Check the fields."""
+        foot_of(self.foot, "foot")
+        if not (isinstance(self.type, str) and self.type in ("stance", "swing_end")):
+            came = shown(self.type)
             raise InvalidInput(
-                f"a {self.type} footstep needs finite times with {allowed}, got {lift} s, {land} s."
+                f"type must be 'stance' or 'swing_end', got {came}.", argument="type"
+            )
+        object.__setattr__(self, "pose", as_pose(self.pose, "pose"))
+        lift, land = finite_number(self.lift, "lift", "s"), finite_number(self.land, "land", "s")
+        stands = self.type == "stance"
+        if not (lift == land if stands else land - lift >= SMALLEST):
+            allowed = "lift == land" if stands else "lift < land"
+            raise InvalidInput(
+                f"a {self.type} footstep needs times with {allowed}, got {lift} s, {land} s.",
+                argument="land",
             )
         object.__setattr__(self, "lift", lift)
         object.__setattr__(self, "land", land)
@@ -68,8 +75,22 @@ class Footstep:
         """Landing time (s); for a stance sole the start of the plan."""
         return self.land
 
+    def keys(self) -> tuple[str, ...]:
+        """Return the walking lab's keys, so that `dict(footstep)` is the lab's dictionary."""
+        return _LAB_KEYS
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_LAB_KEYS)
+
+    def __contains__(self, key: object) -> bool:
+        return isinstance(key, str) and key in _LAB_KEYS
+
     def __getitem__(self, key: str) -> Any:
         """Return one of the walking lab's keys: foot, pos, time, type."""
-        if key not in _LAB_KEYS:
+        if key not in self:
             raise KeyError(f"a footstep has the keys {', '.join(_LAB_KEYS)}, not {key!r}")
         return getattr(self, key)
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Return one of the walking lab's keys, or `default` for another one."""
+        return getattr(self, key) if key in self else default

@@ -8,26 +8,27 @@ smallest that keeps the planner's step length and the limits.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import ceil, isfinite, sin
+from math import ceil, sin
 
 import numpy as np
 
+from preview_walk.arguments import MOST, count_of, finite_number, instance_of, positive_number
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.layout import Start
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.footsteps.planner import (
-    FootstepPlanner,
-    Stride,
-    count_of,
-    ramp_shares,
-)
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.stride import Stride, ramp_shares
 from preview_walk.types import Foot
 
-Start = Sequence[float] | FootstepPlan
-"""(x, y) or (x, y, yaw) midway between the first two soles, or a plan to go on from."""
-
 _MORE_STEPS = 60
+"""A walk of twice the fewest steps and this many more is refused for good."""
+
+_WIDER = 2.0
+"""Wider stances than the planner's by up to this much (m) are tried for a turn in place."""
+
 _CLOSE = 1e-9
+"""Lengths (m) and angles (rad) nearer than this are equal: rounding."""
 
 
 def straight(
@@ -48,20 +49,18 @@ def straight(
         limits: bounds of a step; None takes those of a 0.8 m leg.
         ramp: number of shorter steps in which the walk speeds up and slows down.
     """
-    _finite(distance, "distance", "m")
-    bounds = limits_for(planner, limits)
+    bounds, distance = limits_for(planner, limits), finite_number(distance, "distance", "m")
     reach = bounds.forward if distance > 0.0 else bounds.backward
 
     def build(count: int, width: float) -> FootstepPlan:
         shares = ramp_shares(count, ramp)
         strides = [Stride(distance * share / sum(shares), width=width) for share in shares]
         if max((abs(s.forward) for s in strides), default=0.0) > abs(planner.step_length) + _CLOSE:
-            raise InvalidInput("a stride is longer than the planner's step_length.")
+            raise _too_long()
         return planner.walk(strides + [Stride()] * bool(count), start, start_foot, bounds)
 
-    return _fewest(
-        _count(distance, min(abs(planner.step_length), reach)), build, [planner.step_width]
-    )
+    count = _count(distance, min(abs(planner.step_length), reach), "distance")
+    return _fewest(count, build, [planner.step_width])
 
 
 def sideways(
@@ -74,15 +73,14 @@ def sideways(
 
     The foot on that side opens, the other closes, so the soles are never nearer than in stance.
     """
-    _finite(distance, "distance", "m")
-    bounds = limits_for(planner, limits)
+    bounds, distance = limits_for(planner, limits), finite_number(distance, "distance", "m")
     reach = min(abs(planner.step_length), bounds.max_width - planner.step_width)
 
     def build(count: int, width: float) -> FootstepPlan:
         pair = [Stride(left=distance / max(count, 1), width=width), Stride(width=width)]
         return planner.walk(pair * count, start, "left" if distance > 0.0 else "right", bounds)
 
-    return _fewest(_count(distance, reach), build, [planner.step_width])
+    return _fewest(_count(distance, reach, "distance"), build, [planner.step_width])
 
 
 def on_the_spot(
@@ -93,8 +91,8 @@ def on_the_spot(
     limits: GaitLimits | None = None,
 ) -> FootstepPlan:
     """Return `n_steps` steps that land where they lifted."""
-    count_of(n_steps, "n_steps")
-    return planner.walk([Stride()] * n_steps, start, start_foot, limits_for(planner, limits))
+    bounds, count = limits_for(planner, limits), count_of(n_steps, "n_steps")
+    return planner.walk([Stride()] * count, start, start_foot, bounds)
 
 
 def turn_in_place(
@@ -108,10 +106,10 @@ def turn_in_place(
     The foot on the side of the turn opens, the other closes.  Where the soles would collide the
     feet stand wider while they turn, and two more steps bring them back.
     """
-    _finite(angle, "angle", "rad")
-    bounds = limits_for(planner, limits)
+    bounds, angle = limits_for(planner, limits), finite_number(angle, "angle", "rad")
     first: Foot = "left" if angle > 0.0 else "right"
-    widths = np.arange(planner.step_width, max(bounds.max_width, planner.step_width) + 0.01, 0.02)
+    widest = max(min(bounds.max_width, planner.step_width + _WIDER), planner.step_width)
+    widths = np.arange(planner.step_width, widest + 0.01, 0.02)
 
     def build(count: int, width: float) -> FootstepPlan:
         pair = [Stride(turn=angle / max(count, 1), width=width), Stride(width=width)]
@@ -119,7 +117,7 @@ def turn_in_place(
         return planner.walk([*pair * count, *closing], start, first, bounds)
 
     # Wider where that saves steps: the fewest steps first, the narrowest stance among them.
-    count = _count(angle, 0.8 * bounds.turn_out)
+    count = _count(angle, 0.8 * bounds.turn_out, "angle")
     return _fewest(count, build, widths.tolist())
 
 
@@ -143,42 +141,53 @@ def arc(
         limits: bounds of a step; None takes those of a 0.8 m leg.
         ramp: number of shorter steps in which the walk speeds up and slows down.
     """
-    _finite(angle, "angle", "rad")
-    if not (isfinite(radius) and radius > 0.0):
-        raise InvalidInput(f"radius must be > 0 m, got {radius}.")
-    bounds = limits_for(planner, limits)
+    bounds, angle = limits_for(planner, limits), finite_number(angle, "angle", "rad")
+    radius = positive_number(radius, "radius", "m")
     first: Foot = start_foot or ("left" if angle > 0.0 else "right")
 
     def build(count: int, width: float) -> FootstepPlan:
         shares = ramp_shares(count, ramp)
         turns = [angle * share / sum(shares) for share in shares]
         if max((abs(t) for t in turns), default=0.0) * radius > abs(planner.step_length) + _CLOSE:
-            raise InvalidInput("a stride is longer than the planner's step_length.")
+            raise _too_long()
         chords = [2.0 * radius * sin(0.5 * abs(turn)) for turn in turns]
         strides = [Stride(c, turn=t, width=width) for c, t in zip(chords, turns, strict=True)]
         return planner.walk(strides + [Stride()] * bool(count), start, first, bounds)
 
-    return _fewest(
-        _count(radius * angle, min(abs(planner.step_length), bounds.forward)),
-        build,
-        [planner.step_width],
-    )
+    count = _count(radius * angle, min(abs(planner.step_length), bounds.forward), "angle")
+    return _fewest(count, build, [planner.step_width])
 
 
 def limits_for(planner: FootstepPlanner, limits: GaitLimits | None) -> GaitLimits:
-    """Return the given limits, or those of a 0.8 m leg with the planner's step width."""
-    return GaitLimits.for_leg(0.8, planner.step_width) if limits is None else limits
+    """Return the given limits, or those of a 0.8 m leg with the planner's step width.
+
+    Raises:
+        InvalidInput: the planner or the limits are something else.
+    """
+    width = instance_of(planner, FootstepPlanner, "planner").step_width
+    if limits is None:
+        return GaitLimits.for_leg(0.8, width)
+    return instance_of(limits, GaitLimits, "limits")
 
 
-def _finite(value: float, name: str, unit: str) -> None:
-    if not isfinite(value):
-        raise InvalidInput(f"{name} must be finite ({unit}), got {value}.")
-
-
-def _count(total: float, size: float) -> int:
+def _count(total: float, size: float, name: str) -> int:
+    """Return the number of steps of a size that make up a total; `name`: its argument."""
     if total and size <= 0.0:
-        raise InvalidInput("step_length must not be 0 to cover a distance, got 0.0.")
+        raise InvalidInput(
+            "step_length must not be 0 to cover a distance, got 0.0.", argument="step_length"
+        )
+    if total and abs(total) > MOST * size:
+        raise InvalidInput(
+            f"{name} must be walked in at most {MOST} steps, got {total:g} with steps of {size:g}.",
+            argument=name,
+        )
     return ceil(abs(total) / size - _CLOSE) if total else 0
+
+
+def _too_long() -> InvalidInput:
+    return InvalidInput(
+        "a stride is longer than the planner's step_length.", argument="step_length"
+    )
 
 
 def _fewest(

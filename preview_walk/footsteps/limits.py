@@ -3,17 +3,41 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from math import cos, isfinite, sin, sqrt
+from math import cos, sin, sqrt
 
+from preview_walk.arguments import foot_of, instance_of, positive_number, share_of
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput
-from preview_walk.geometry.poses import Heading, compose, heading_of, pose_at, relative
+from preview_walk.footsteps.step_problem import (
+    ROUNDING,
+    StepProblem,
+    crossing_problem,
+    landing_problem,
+)
+from preview_walk.geometry.poses import (
+    Heading,
+    as_pose,
+    compose,
+    heading_of,
+    pose_at,
+    relative,
+)
 from preview_walk.geometry.support import Sole, sole_gap
-from preview_walk.types import Array, Foot, other
+from preview_walk.types import Array, Foot
 
-_TOLERANCE = 1e-6
 _TRIES = 60
+"""A step is widened at most this many times, by 1 cm each, until it is clear of the other sole."""
+
 _ON_THE_WAY = (0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9)
+"""Shares of a swing's way at which its sole is looked at."""
+
+_UNITS = {
+    **dict.fromkeys(("turn_out", "turn_in"), "rad"),
+    **dict.fromkeys(("min_swing_time", "slow_step_time", "fast_step_time"), "s"),
+    **dict.fromkeys(("slow_double_support", "fast_double_support"), ""),
+    "speed_change": "m/s",
+}
+"""Units of the bounds that are no lengths."""
 
 
 @dataclass(frozen=True)
@@ -61,25 +85,25 @@ class GaitLimits:
 
     def __post_init__(self) -> None:
         """Check the bounds."""
+        instance_of(self.sole, Sole, "sole")
         for bound in fields(self)[1:]:
-            value = getattr(self, bound.name)
-            if not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{bound.name} must be finite and > 0, got {value}.")
+            unit = _UNITS.get(bound.name, "m")
+            size = positive_number(getattr(self, bound.name), bound.name, unit)
+            object.__setattr__(self, bound.name, size)
         if not self.min_width <= self.step_width <= self.max_width:
             raise InvalidInput(
                 "step_width must be between min_width and max_width, got "
-                f"{self.min_width} <= {self.step_width} <= {self.max_width} m."
+                f"{self.min_width} <= {self.step_width} <= {self.max_width} m.",
+                argument="step_width",
             )
         if not 0.5 * self.slow_step_time < self.fast_step_time <= self.slow_step_time:
             raise InvalidInput(
                 "fast_step_time must be more than half of slow_step_time and not longer, "
-                f"got {self.fast_step_time} s and {self.slow_step_time} s."
+                f"got {self.fast_step_time} s and {self.slow_step_time} s.",
+                argument="fast_step_time",
             )
-        if max(self.slow_double_support, self.fast_double_support) >= 1.0:
-            raise InvalidInput(
-                "double support must be a share of the step time in (0, 1), "
-                f"got {self.slow_double_support} and {self.fast_double_support}."
-            )
+        for name in ("slow_double_support", "fast_double_support"):
+            share_of(getattr(self, name), name, "the step time")
 
     @classmethod
     def for_leg(cls, leg_length: float, step_width: float, sole: Sole | None = None) -> GaitLimits:
@@ -96,16 +120,16 @@ class GaitLimits:
         Raises:
             InvalidInput: a length is not finite and positive, or the soles do not fit the width.
         """
-        for name, value in (("leg_length", leg_length), ("step_width", step_width)):
-            if not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be > 0 m, got {value}.")
-        sole = Sole() if sole is None else sole
+        leg_length = positive_number(leg_length, "leg_length", "m")
+        step_width = positive_number(step_width, "step_width", "m")
+        sole = Sole() if sole is None else instance_of(sole, Sole, "sole")
         clearance = 0.01
         narrow = 2.0 * sole.half_width + clearance
-        if narrow > step_width + _TOLERANCE:
+        if narrow > step_width + ROUNDING:
             raise InvalidInput(
                 f"a step_width of {step_width} m is too narrow for soles {2 * sole.half_width} m "
-                f"wide with {clearance} m between them."
+                f"wide with {clearance} m between them.",
+                argument="step_width",
             )
         pendulum = sqrt(leg_length / GRAVITY)
         return cls(
@@ -128,79 +152,51 @@ class GaitLimits:
         half = 0.5 * self.step_width
         return compose(sole, 0.0, -half if foot == "left" else half)
 
-    def problem(self, foot: Foot, stance: Array, pose: Array) -> str | None:
+    def problem(self, foot: Foot, stance: Array, pose: Array) -> StepProblem | None:
         """Return what is wrong with landing `foot` at `pose` beside `stance`, or None.
 
         Args:
             foot: the landing foot.
             stance: pose (4, 4) of the standing sole.
             pose: pose (4, 4) of the landing sole.
-        """
-        a, b = heading_of(stance), heading_of(pose)
-        x, y, turn = relative(a, b)
-        side = 1.0 if foot == "left" else -1.0
-        height = abs(float(pose[2, 3] - stance[2, 3]))
-        beside = f"the {other(foot)} sole"
-        for excess, bound, text in (
-            (x, self.forward, f"lands {x:.3f} m ahead of {beside}, at most"),
-            (-x, self.backward, f"lands {-x:.3f} m behind {beside}, at most"),
-            (side * y, self.max_width, f"lands {side * y:.3f} m beside {beside}, at most"),
-            (side * turn, self.turn_out, f"turns {side * turn:.3f} rad out from {beside}, at most"),
-            (-side * turn, self.turn_in, f"turns {-side * turn:.3f} rad in to {beside}, at most"),
-            (height, self.rise, f"lands {height:.3f} m higher or lower than {beside}, at most"),
-            (-side * y, -self.min_width, f"lands {side * y:.3f} m beside {beside}, at least"),
-        ):
-            if excess > bound + _TOLERANCE:
-                unit = "rad" if "rad" in text else "m"
-                return f"{text} {abs(bound):.3f} {unit} is allowed"
-        gap = sole_gap(a, b, self.sole)
-        if gap < self.clearance - _TOLERANCE:
-            state = f"collides with {beside} (overlap {-gap:.3f} m)"
-            if gap >= 0.0:
-                state = f"passes {gap:.3f} m from {beside}"
-            return f"{state}, at least {self.clearance:.3f} m must stay free"
-        return None
 
-    def crossing(self, foot: Foot, stance: Heading, start: Heading, landing: Heading) -> str | None:
-        """Return what is wrong with swinging straight from `start` to `landing`, or None.
+        Raises:
+            InvalidInput: no foot, or no pose.
+        """
+        _side(foot)
+        a, b = heading_of(as_pose(stance, "stance")), heading_of(as_pose(pose, "pose"))
+        rise = abs(float(pose[2, 3] - stance[2, 3]))
+        return landing_problem(self, foot, relative(a, b), rise, sole_gap(a, b, self.sole))
+
+    def crossing(self, foot: Foot, stance: Array, start: Array, pose: Array) -> StepProblem | None:
+        """Return what is wrong with swinging straight from `start` to `pose`, or None.
 
         Args:
             foot: the swinging foot.
-            stance: heading of the standing sole.
-            start: heading of the swinging sole at lift.
-            landing: heading of the swinging sole at landing.
-        """
-        overlap = -self._sweep(stance, start, landing)
-        if overlap <= _TOLERANCE:
-            return None
-        return f"swings across the {other(foot)} sole (overlap {overlap:.3f} m)"
-
-    def checked(
-        self, number: int, foot: Foot, stance: Array, start: Array, pose: Array, shorten: bool
-    ) -> Array:
-        """Return the landing pose (4, 4) of step `number` if it is allowed.
-
-        Args:
-            number: of the step, for the message.
-            foot: the landing foot.
             stance: pose (4, 4) of the standing sole.
             start: pose (4, 4) of the swinging sole at lift.
             pose: pose (4, 4) of the swinging sole at landing.
-            shorten: return the nearest allowed level pose instead of refusing.
 
         Raises:
-            InvalidInput: the step breaks a limit.
+            InvalidInput: no foot, or no pose.
         """
+        _side(foot)
         here, begin, end = heading_of(stance), heading_of(start), heading_of(pose)
-        problem = self.problem(foot, stance, pose) or self.crossing(foot, here, begin, end)
-        if problem is None:
-            return pose
-        if not shorten:
-            raise InvalidInput(f"step {number} {problem}.")
-        return pose_at(*self.clamp(foot, here, end, begin), float(pose[2, 3]))
+        overlap = -self._sweep(here, begin, end)
+        if overlap <= ROUNDING:
+            return None
+        return crossing_problem(foot, overlap, relative(here, end)[2])
+
+    def shortened(self, foot: Foot, stance: Array, start: Array, pose: Array) -> Array:
+        """Return the allowed level pose (4, 4) of the landing sole nearest to `pose`.
+
+        Arguments as in `crossing`.
+        """
+        goal, begin = heading_of(pose), heading_of(start)
+        return pose_at(*self.clamp(foot, heading_of(stance), goal, begin), float(pose[2, 3]))
 
     def _sweep(self, stance: Heading, start: Heading, landing: Heading) -> float:
-        """Return the least gap (m) on the way."""
+        """Return the least gap (m) between the soles on the way."""
         dx, dy, turn = relative(start, landing)
         way = (compose(start, s * dx, s * dy, s * turn) for s in _ON_THE_WAY)
         return min(sole_gap(stance, sole, self.sole) for sole in way)
@@ -219,13 +215,16 @@ class GaitLimits:
             stance: heading of the standing sole.
             goal: heading where the sole would land without limits.
             start: heading from which the foot swings; None leaves the way unchecked.
+
+        Raises:
+            InvalidInput: no foot, or no heading.
         """
         x, y, turn = relative(stance, goal)
-        side = 1.0 if foot == "left" else -1.0
+        side = _side(foot)
         x_in = min(self.forward, max(-self.backward, x))
         width = min(self.max_width, max(self.min_width, side * y))
         turn_in = side * min(self.turn_out, max(-self.turn_in, side * turn))
-        inside = abs(x - x_in) + abs(side * y - width) + abs(turn - turn_in) < _TOLERANCE
+        inside = abs(x - x_in) + abs(side * y - width) + abs(turn - turn_in) < ROUNDING
         # Left alone where nothing is out of bounds, so that allowed steps stay bit for bit.
         landing = goal if inside else compose(stance, x_in, side * width, turn_in)
         for _ in range(_TRIES):
@@ -238,11 +237,17 @@ class GaitLimits:
         return landing
 
     def _clear(self, side: float, stance: Heading, landing: Heading, start: Heading | None) -> bool:
-        if sole_gap(stance, landing, self.sole) < self.clearance - _TOLERANCE:
+        """Return whether a landing leaves room, on the way and for the next step, too."""
+        if sole_gap(stance, landing, self.sole) < self.clearance - ROUNDING:
             return False
         if start is not None and self._sweep(stance, start, landing) < 0.0:
             return False
         # The other foot stands beside the track of this one: it will pass it.
         _, y, turn = relative(landing, stance)
         track = self.sole.half_width * (1.0 + cos(turn)) + self.sole.half_length * abs(sin(turn))
-        return -side * y >= min(track, self.min_width) - _TOLERANCE
+        return -side * y >= min(track, self.min_width) - ROUNDING
+
+
+def _side(foot: Foot) -> float:
+    """Return 1 for the left foot, -1 for the right one."""
+    return 1.0 if foot == "left" or foot_of(foot, "foot") == "left" else -1.0

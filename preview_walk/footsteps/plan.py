@@ -8,9 +8,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from math import isfinite
 from typing import overload
 
+from preview_walk.arguments import finite_number, foot_of, items_of, positive_number, time_of
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.geometry.poses import as_pose
@@ -49,19 +49,20 @@ class FootstepPlan(Sequence[Footstep]):
     __slots__ = ("_by_foot", "_items", "_lands", "_lifts", "_steps", "_weight_shift")
 
     def __init__(self, steps: Iterable[Footstep], weight_shift: float = WEIGHT_SHIFT_TIME) -> None:
-        items = tuple(steps)
-        weight_shift = float(weight_shift)
-        if not (isfinite(weight_shift) and weight_shift > 0.0):
-            raise InvalidInput(f"weight_shift must be a time > 0 s, got {weight_shift}.")
+        items = tuple(items_of(steps, Footstep, "steps"))
+        weight_shift = positive_number(weight_shift, "weight_shift", "s")
         stance = items[:2]
         if {s.foot for s in stance if s.type == "stance"} != set(FEET):
             found = ", ".join(f"{s.foot} {s.type}" for s in stance) or "nothing"
             raise InvalidInput(
-                f"a plan must begin with one left and one right stance footstep, got {found}."
+                f"a plan must begin with one left and one right stance footstep, got {found}.",
+                argument="steps",
             )
         if stance[0].land != stance[1].land:
             both = " and ".join(f"{s.land} s" for s in stance)
-            raise InvalidInput(f"both stance footsteps must have the same time, got {both}.")
+            raise InvalidInput(
+                f"both stance footsteps must have the same time, got {both}.", argument="steps"
+            )
         if stance[0].foot == "right":
             items = (items[1], items[0], *items[2:])
         self._fill((), items, weight_shift)
@@ -70,8 +71,19 @@ class FootstepPlan(Sequence[Footstep]):
     def standing(
         cls, left: Array, right: Array, start: float = 0.0, weight_shift: float = WEIGHT_SHIFT_TIME
     ) -> FootstepPlan:
-        """Return the plan without steps: both soles (poses, (4, 4)) stand from `start` (s) on."""
-        soles = zip(FEET, (left, right), strict=True)
+        """Return the plan without steps.
+
+        Args:
+            left: pose (4, 4) of the left sole.
+            right: pose (4, 4) of the right sole.
+            start: time from which they stand, s.
+            weight_shift: as of the plan, s.
+
+        Raises:
+            InvalidInput: no pose, or no time.
+        """
+        soles = zip(FEET, (as_pose(left, "left"), as_pose(right, "right")), strict=True)
+        start = finite_number(start, "start", "s")
         return cls(
             [Footstep(foot, pose, start, start, "stance") for foot, pose in soles], weight_shift
         )
@@ -95,19 +107,23 @@ class FootstepPlan(Sequence[Footstep]):
     def _check(self, index: int) -> None:
         step, before, number = self._items[index], self._items[index - 1], index - 1
         if step.type != "swing_end":
-            raise InvalidInput(f"step {number} must be of type 'swing_end', got {step.type!r}.")
+            raise InvalidInput(
+                f"step {number} must be of type 'swing_end', got {step.type!r}.", argument="steps"
+            )
         if step.lift <= before.land:
             since = f"step {number - 1} lands" if number > 1 else "the plan starts"
             raise InvalidInput(
                 f"step {number} must lift after {since} at {before.land:.3f} s, "
-                f"got a lift at {step.lift:.3f} s."
+                f"got a lift at {step.lift:.3f} s.",
+                argument="steps",
             )
         pause = step.lift - before.land
         if number > 1 and step.foot == before.foot and not (step.again or self.is_stand(pause)):
             raise InvalidInput(
                 f"step {number} must be taken by the {other(step.foot)} foot, because step "
                 f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "
-                f"(a foot may go twice after a stand of {2 * self._weight_shift:.3f} s)."
+                f"(a foot may go twice after a stand of {2 * self._weight_shift:.3f} s).",
+                argument="steps",
             )
 
     def __len__(self) -> int:
@@ -152,13 +168,16 @@ class FootstepPlan(Sequence[Footstep]):
 
     def swing_at(self, t: float) -> Footstep | None:
         """Return the step in the air at time t (s), lift <= t < land, or None."""
-        index = bisect_right(self._lifts, t) - 1
+        index = _until(self._lifts, t) - 1
         return self._steps[index] if index >= 0 and t < self._lands[index] else None
 
     def sole(self, foot: Foot, t: float) -> Array:
         """Return where `foot` stands at time t (s), (4, 4); while it swings, where it lifted."""
-        lands, own = self._by_foot[foot]
-        return own[max(0, bisect_right(lands, t) - 1)].pose
+        try:
+            lands, own = self._by_foot[foot]
+        except (KeyError, TypeError):
+            lands, own = self._by_foot[foot_of(foot, "foot")]
+        return own[max(0, _until(lands, t) - 1)].pose
 
     def start_pose(self, step: Footstep) -> Array:
         """Return the (4, 4) sole pose from which `step` lifts."""
@@ -166,21 +185,21 @@ class FootstepPlan(Sequence[Footstep]):
 
     def next_landing(self, t: float) -> Footstep | None:
         """Return the first step that lands after time t (s), or None."""
-        index = bisect_right(self._lands, t)
+        index = _until(self._lands, t)
         return self._steps[index] if index < len(self._steps) else None
 
     def next_lift(self, t: float) -> Footstep | None:
         """Return the first step that lifts after time t (s), or None."""
-        index = bisect_right(self._lifts, t)
+        index = _until(self._lifts, t)
         return self._steps[index] if index < len(self._steps) else None
 
     def lifted(self, t: float) -> tuple[Footstep, ...]:
         """Return the swing steps with lift <= t (s), which can no longer be unmade."""
-        return self._steps[: bisect_right(self._lifts, t)]
+        return self._steps[: _until(self._lifts, t)]
 
     def is_stand(self, pause: float) -> bool:
         """Return whether a double support of `pause` seconds is a stand (>= 2 weight_shift)."""
-        return pause >= 2.0 * self._weight_shift - 1e-9
+        return time_of(pause, "pause") >= 2.0 * self._weight_shift - 1e-9
 
     def replace_after(self, t: float, steps: Iterable[Footstep]) -> FootstepPlan:
         """Return the plan with the steps lifted by time t (s), followed by `steps`.
@@ -188,11 +207,14 @@ class FootstepPlan(Sequence[Footstep]):
         Raises:
             InvalidInput: a new step lifts at or before t, or does not fit to those before it.
         """
-        new = tuple(steps)
+        new = tuple(items_of(steps, Footstep, "steps"))
+        kept = self._items[: 2 + _until(self._lifts, t)]
         if new and new[0].lift <= t:
             lift = new[0].lift
-            raise InvalidInput(f"a new step must lift after t = {t:.3f} s, got {lift:.3f} s.")
-        return self._with(self._items[: 2 + bisect_right(self._lifts, t)], new)
+            raise InvalidInput(
+                f"a new step must lift after t = {t:.3f} s, got {lift:.3f} s.", argument="steps"
+            )
+        return self._with(kept, new)
 
     def retarget(self, t: float, pose: Array, land: float | None = None) -> FootstepPlan:
         """Return the plan in which the foot in the air at time t (s) lands at `pose`.
@@ -203,17 +225,17 @@ class FootstepPlan(Sequence[Footstep]):
             land: new landing time (s, > t), None keeps it; later steps move by the same time.
 
         Raises:
-            InvalidInput: no foot is in the air at t, or `land` is not after t.
+            InvalidInput: no foot is in the air at t, `land` is not after t, or `pose` is none.
         """
         step = self.swing_at(t)
         if step is None:
             raise InvalidInput(
-                f"no foot is in the air at t = {t:.3f} s, so none can be retargeted."
+                f"no foot is in the air at t = {t:.3f} s, so none can be retargeted.", argument="t"
             )
-        land = step.land if land is None else float(land)
+        land = step.land if land is None else finite_number(land, "land", "s")
         if not land > t:
-            raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
-        index = 1 + bisect_right(self._lifts, t)
+            raise InvalidInput(f"land must be after t = {t:.3f} s, got {land} s.", argument="land")
+        index = 1 + _until(self._lifts, t)
         later = self._items[index + 1 :]
         if land != step.land:
             delay = land - step.land
@@ -222,7 +244,7 @@ class FootstepPlan(Sequence[Footstep]):
 
     def since(self, t: float) -> FootstepPlan:
         """Return the plan without its past, the same at all times >= t (s): for endless walks."""
-        first = bisect_right(self._lands, t) - 2
+        first = _until(self._lands, t) - 2
         if first <= 0:
             return self
         index = 2 + first
@@ -240,3 +262,8 @@ class FootstepPlan(Sequence[Footstep]):
         plan = object.__new__(FootstepPlan)
         plan._fill(kept, new, self._weight_shift)
         return plan
+
+
+def _until(times: list[float], t: float) -> int:
+    """Return how many of the increasing times (s) are not after t (s)."""
+    return bisect_right(times, t if type(t) is float and t == t else time_of(t))

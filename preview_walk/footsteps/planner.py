@@ -4,66 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import isfinite
-from operator import index
 from typing import Literal
 
-from preview_walk.errors import InvalidInput
-from preview_walk.footsteps.footstep import Footstep
+from preview_walk.arguments import (
+    count_of,
+    finite_number,
+    foot_of,
+    instance_of,
+    items_of,
+    positive_number,
+    share_of,
+    time_of,
+)
+from preview_walk.footsteps.layout import Layout, Start
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.reading import DOUBLE_SUPPORT_RATIO, PlanLike, as_plan
+from preview_walk.footsteps.stride import Stride, ramp_shares
 from preview_walk.geometry.poses import Heading, as_heading, compose, heading_of, midfeet, pose_at
 from preview_walk.types import FEET, Array, Foot, other
-
-STAND_TIME = 1.6
-"""Time (s) of standing before the first lift: as long as the preview, because a CoM at rest cannot
-be asked for more (with 1.0 s the preview controller starts with a ZMP error of 0.2 m)."""
 
 
 def sole_beside(frame: Heading, foot: Foot, step_width: float, z: float = 0.0) -> Array:
     """Return the (4, 4) pose of a level sole half a step width (m) to its side of `frame`."""
     x, y, yaw = compose(frame, 0.0, 0.5 * step_width if foot == "left" else -0.5 * step_width)
     return pose_at(x, y, yaw, z)
-
-
-@dataclass(frozen=True)
-class Stride:
-    """How one step moves the middle of the stance; None takes what the planner has.
-
-    Attributes:
-        forward: advance (m) in the direction halfway through the turn.
-        left: advance (m) to the left of that direction.
-        turn: change of heading (rad, left positive).
-        width: lateral distance (m) of the landing sole from where the other would stand.
-        time: step time (s): swing of this step and the double support after it.
-        double_support_ratio: share of `time` in double support, in (0, 1).
-
-    Raises:
-        InvalidInput: a value that is not finite or not within its range.
-    """
-
-    forward: float = 0.0
-    left: float = 0.0
-    turn: float = 0.0
-    width: float | None = None
-    time: float | None = None
-    double_support_ratio: float | None = None
-
-    def __post_init__(self) -> None:
-        """Check the sizes."""
-        for name, unit in (("forward", "m"), ("left", "m"), ("turn", "rad")):
-            value = getattr(self, name)
-            if not isfinite(value):
-                raise InvalidInput(f"{name} must be finite ({unit}), got {value}.")
-        for name, unit in (("width", "m"), ("time", "s")):
-            value = getattr(self, name)
-            if value is not None and not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be > 0 {unit}, got {value}.")
-        ratio = self.double_support_ratio
-        if ratio is not None and not 0.0 < ratio < 1.0:
-            raise InvalidInput(
-                f"double_support_ratio must be in (0, 1), the share of the step time, got {ratio}."
-            )
 
 
 @dataclass(frozen=True)
@@ -85,21 +50,19 @@ class FootstepPlanner:
     step_length: float = 0.15
     step_width: float = 0.1
     step_time: float = 0.5
-    double_support_ratio: float = 0.2
+    double_support_ratio: float = DOUBLE_SUPPORT_RATIO
 
     def __post_init__(self) -> None:
         """Check the sizes."""
-        if not isfinite(self.step_length):
-            raise InvalidInput(f"step_length must be finite (m), got {self.step_length}.")
-        for name, unit in (("step_width", "m"), ("step_time", "s")):
-            value = getattr(self, name)
-            if not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be > 0 {unit}, got {value}.")
-        if not 0.0 < self.double_support_ratio < 1.0:
-            raise InvalidInput(
-                "double_support_ratio must be in (0, 1), the share of the step time, "
-                f"got {self.double_support_ratio}."
-            )
+        sizes = {
+            "step_length": finite_number(self.step_length, "step_length", "m"),
+            "step_width": positive_number(self.step_width, "step_width", "m"),
+            "step_time": positive_number(self.step_time, "step_time", "s"),
+        }
+        name = "double_support_ratio"
+        sizes[name] = share_of(self.double_support_ratio, name, "the step time")
+        for name, size in sizes.items():
+            object.__setattr__(self, name, size)
 
     @property
     def double_support_time(self) -> float:
@@ -136,9 +99,7 @@ class FootstepPlanner:
             InvalidInput: n_steps or ramp is not an integer >= 0, or another argument is not
                 what is described here.
         """
-        count_of(n_steps, "n_steps")
-        if not isfinite(turn):
-            raise InvalidInput(f"turn must be finite (rad per step), got {turn}.")
+        n_steps, turn = count_of(n_steps, "n_steps"), finite_number(turn, "turn", "rad per step")
         shares = ramp_shares(n_steps - 1, ramp)
         strides = [Stride(share * self.step_length, 0.0, share * turn) for share in shares]
         closing = [Stride()] if n_steps else []
@@ -147,7 +108,7 @@ class FootstepPlanner:
     def walk(
         self,
         strides: Iterable[Stride],
-        start: Sequence[float] | FootstepPlan = (0.0, 0.0),
+        start: Start = (0.0, 0.0),
         start_foot: Foot = "left",
         limits: GaitLimits | None = None,
         shorten: bool = False,
@@ -167,19 +128,17 @@ class FootstepPlanner:
                 goes on from where the shorter step lands.
 
         Raises:
-            InvalidInput: a step breaks the limits, with its number and the bound.
+            InvalidInput: a step breaks the limits, with its number and the bound; `argument` is
+                the planner's that is at fault, as in `StepProblem`. Or another argument is not
+                what is described here.
         """
-        if start_foot not in FEET:
-            raise InvalidInput(f"start_foot must be 'left' or 'right', got {start_foot!r}.")
-        plan = start if isinstance(start, FootstepPlan) else self.stand(start)
-        last = max(plan[0].land, plan[-1].land)
-        soles = {foot: plan.sole(foot, last) for foot in FEET}
-        z = 0.5 * float(soles["left"][2, 3] + soles["right"][2, 3])
-        frame = midfeet(soles["left"], soles["right"])
-        lift = last + max(STAND_TIME, 2.0 * plan.weight_shift)
-        steps: list[Footstep] = []
-        foot = start_foot
-        for stride in strides:
+        foot = foot_of(start_foot, "start_foot")
+        if limits is not None:
+            instance_of(limits, GaitLimits, "limits")
+        layout = Layout(self, start)
+        z = 0.5 * float(layout.soles["left"][2, 3] + layout.soles["right"][2, 3])
+        frame = midfeet(layout.soles["left"], layout.soles["right"])
+        for stride in items_of(strides, Stride, "strides"):
             width = self.step_width if stride.width is None else stride.width
             time = self.step_time if stride.time is None else stride.time
             ratio = stride.double_support_ratio or self.double_support_ratio
@@ -187,33 +146,43 @@ class FootstepPlanner:
             frame = compose(frame, 0.0, 0.0, 0.5 * stride.turn)
             frame = compose(frame, stride.forward, stride.left, 0.5 * stride.turn)
             pose = sole_beside(frame, foot, width, z)
-            stance = soles[other(foot)]
             if limits is not None:
-                number = len(plan.steps) + len(steps) + 1
-                pose = limits.checked(number, foot, stance, soles[foot], pose, shorten)
+                pose = layout.allowed(foot, pose, limits, shorten)
                 landing = heading_of(pose)
                 frame = compose(landing, 0.0, -0.5 * width if foot == "left" else 0.5 * width)
-            land = lift + time * (1.0 - ratio)
-            steps.append(Footstep(foot, pose, lift, land))
-            soles[foot] = pose
-            foot, lift = other(foot), land + time * ratio
-        return plan.replace_after(last, steps)
+            layout.add(foot, pose, time * (1.0 - ratio), time * ratio)
+            foot = other(foot)
+        return layout.plan()
 
     def stand(self, start: Sequence[float] = (0.0, 0.0)) -> FootstepPlan:
-        """Return the plan without steps, a step width apart, at (x, y) or (x, y, yaw) (m, rad)."""
+        """Return the plan without steps, the soles a step width apart.
+
+        Args:
+            start: (x, y) or (x, y, yaw) of the point midway between the soles (m, rad).
+
+        Raises:
+            InvalidInput: that is no such place.
+        """
         frame = as_heading(start, "start")
         left, right = (sole_beside(frame, foot, self.step_width) for foot in FEET)
         return FootstepPlan.standing(left, right)
 
     def get_support_phase(
-        self, t: float, footsteps: Sequence[Footstep]
+        self, t: float, footsteps: PlanLike
     ) -> tuple[Literal["double", "left_support", "right_support"], float]:
         """Return the support phase at time t (s) and the progress (0..1) through it.
 
         "left_support" means that the left foot stands and the right one swings.  Before the start
         of the plan the progress is 0, after its end 1.
+
+        Args:
+            t: time, s.
+            footsteps: whatever `as_plan` takes.
+
+        Raises:
+            InvalidInput: t is no time, or the footsteps are no plan.
         """
-        plan = footsteps if isinstance(footsteps, FootstepPlan) else FootstepPlan(footsteps)
+        t, plan = time_of(t), as_plan(footsteps, self.double_support_ratio)
         step = plan.swing_at(t)
         if step is not None:
             progress = (t - step.lift) / (step.land - step.lift)
@@ -225,28 +194,3 @@ class FootstepPlanner:
         if until <= since:
             return "double", 0.0 if t < since else 1.0
         return "double", min(1.0, max(0.0, (t - since) / (until - since)))
-
-
-def count_of(value: int, name: str) -> int:
-    """Return the number.
-
-    Raises:
-        InvalidInput: it is not an integer >= 0.
-    """
-    try:
-        count = -1 if isinstance(value, bool) else index(value)
-    except TypeError:
-        count = -1
-    if count < 0:
-        raise InvalidInput(f"{name} must be an integer >= 0, got {value!r}.")
-    return count
-
-
-def ramp_shares(count: int, ramp: int) -> list[float]:
-    """Return the share of the full size of each of `count` strides, ramped up and down.
-
-    Raises:
-        InvalidInput: ramp is not an integer >= 0.
-    """
-    size = count_of(ramp, "ramp") + 1
-    return [min(1.0, (i + 1) / size, (count - i) / size) for i in range(count)]

@@ -9,12 +9,24 @@ while, slows down, and stands with the feet side by side.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite, sqrt
+from math import sqrt
 
+import numpy as np
+
+from preview_walk.arguments import (
+    LARGEST,
+    MOST,
+    finite_number,
+    instance_of,
+    number_from_zero,
+    real_array,
+    shown,
+)
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.poses import Heading, compose, heading_of, pose_at, relative
 from preview_walk.types import Foot, other
 
@@ -30,10 +42,11 @@ START_DELAY = 1.2
 """Time (s) from a command to a standing robot to its first lift, in which the weight shifts."""
 
 _ROUNDING = 1e-6
+"""Speeds (m/s) nearer than this are equal."""
 
 
 def follow_velocity(
-    plan: FootstepPlan,
+    plan: PlanLike,
     t: float,
     command: Sequence[float],
     limits: GaitLimits,
@@ -47,7 +60,7 @@ def follow_velocity(
     their side; the other follows.  The same command given again changes nothing but the end.
 
     Args:
-        plan: the walk up to now.
+        plan: the walk up to now; whatever `as_plan` takes.
         t: now, s.
         command: vx, vy (m/s) and yaw rate (rad/s) in the frame of the walking robot.
         limits: bounds of a step.
@@ -55,13 +68,12 @@ def follow_velocity(
             stops.
 
     Raises:
-        InvalidInput: the command is not three finite numbers, or a time is not finite.
+        InvalidInput: the command is not three finite numbers, a time is not one, or the plan is
+            none.
     """
+    plan, t = as_plan(plan), finite_number(t, "t", "s")
     vx, vy, wz = saturated(command, limits)
-    if not (isfinite(t) and isfinite(duration) and duration >= 0.0):
-        raise InvalidInput(
-            f"t must be finite and duration >= 0 (s), got t = {t} and duration = {duration}."
-        )
+    duration = number_from_zero(duration, "duration", "s")
     done = len(plan.lifted(t + LEAD))
     planned = plan.steps[done] if done < len(plan.steps) else None
     last = plan[1 + done]
@@ -90,6 +102,10 @@ def follow_velocity(
         target = _target(foot, stance, move or (speed * time, 0.0, 0.0), limits)
         sole = limits.clamp(foot, stance, target, swing)
         land = lift + time * (1.0 - ratio)
+        if len(steps) >= MOST:
+            raise InvalidInput(
+                f"duration must be over within {MOST} steps, got {duration} s.", argument="duration"
+            )
         steps.append(Footstep(foot, pose_at(*sole, z), lift, land))
         if closing:
             return plan.replace_after(t + LEAD, steps)
@@ -101,6 +117,10 @@ def rhythm(speed: float, limits: GaitLimits) -> tuple[float, float]:
 
     Both go linearly with the speed from the slow to the fast values of the limits, which are
     reached where the longest step at the fast step time would be made.
+
+    Args:
+        speed: m/s, forward or backward.
+        limits: bounds of a step.
     """
     share = min(1.0, abs(speed) / _top_speed(limits))
     time = limits.slow_step_time + share * (limits.fast_step_time - limits.slow_step_time)
@@ -111,18 +131,25 @@ def rhythm(speed: float, limits: GaitLimits) -> tuple[float, float]:
 def saturated(command: Sequence[float], limits: GaitLimits) -> tuple[float, float, float]:
     """Return the command (vx, vy in m/s, yaw rate in rad/s), scaled down to what the limits allow.
 
+    Args:
+        command: vx, vy (m/s) and yaw rate (rad/s).
+        limits: bounds of a step.
+
     Raises:
         InvalidInput: the command is not three finite numbers.
     """
+    instance_of(limits, GaitLimits, "limits")
     try:
-        vx, vy, wz = (float(v) for v in command)
-    except (TypeError, ValueError):
-        vx = vy = wz = float("nan")
-    if not isfinite(vx + vy + wz):
+        speeds = real_array(command, "command", "three numbers")
+    except InvalidInput:
+        speeds = np.empty(0)
+    if speeds.shape != (3,) or not np.abs(speeds).max() <= LARGEST:
         raise InvalidInput(
             "a velocity command must be (vx, vy, yaw rate), finite, in m/s and rad/s, "
-            f"got {command!r}."
+            f"got {shown(command)}.",
+            argument="command",
         )
+    vx, vy, wz = speeds.tolist()
     time = limits.slow_step_time
     backward = _speed(-min(limits.forward, limits.backward), limits)
     share = max(
@@ -137,6 +164,7 @@ def saturated(command: Sequence[float], limits: GaitLimits) -> tuple[float, floa
 
 
 def _top_speed(limits: GaitLimits) -> float:
+    """Return the speed (m/s) of the longest steps at the fast step time."""
     return limits.forward / limits.fast_step_time
 
 
@@ -146,7 +174,7 @@ def _speed(length: float, limits: GaitLimits) -> float:
     bend = (slow - limits.fast_step_time) / _top_speed(limits)
     size = min(abs(length), limits.forward)
     # length = speed * (slow - bend * speed), solved without cancellation for bend -> 0.
-    speed = 2.0 * size / (slow + sqrt(slow * slow - 4.0 * bend * size))
+    speed = 2.0 * size / (slow + sqrt(max(0.0, slow * slow - 4.0 * bend * size)))
     return speed if length >= 0.0 else -speed
 
 
@@ -179,6 +207,7 @@ def _even(dx: float, turn: float, limits: GaitLimits) -> bool:
 
 
 def _target(foot: Foot, stance: Heading, move: Heading, limits: GaitLimits) -> Heading:
+    """Return where a foot lands that makes this move (m, m, rad) from beside the standing one."""
     dx, dy, turn = move
     centre = compose(limits.centre(other(foot), stance), 0.0, 0.0, 0.5 * turn)
     half = 0.5 * limits.step_width

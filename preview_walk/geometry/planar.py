@@ -1,10 +1,18 @@
-"""The plane seen from above, for arrays of poses and points: yaw, turning, wrapping."""
+"""The plane seen from above, for arrays of poses and points: yaw, turning, wrapping.
+
+`poses` has the same for one pose, with the scalar functions of `math`: a planning tick is made of
+those.
+"""
 
 from __future__ import annotations
+
+from typing import TypeVar
 
 import numpy as np
 
 from preview_walk.types import Array
+
+_Angle = TypeVar("_Angle", float, Array)
 
 
 def yaw(pose: Array) -> Array:
@@ -13,9 +21,9 @@ def yaw(pose: Array) -> Array:
     return angle
 
 
-def wrap(angle: Array) -> Array:
-    """Return angles (rad) brought into [-pi, pi)."""
-    return (angle + np.pi) % (2 * np.pi) - np.pi
+def wrap(angle: _Angle) -> _Angle:
+    """Return an angle, or an array of them, brought into [-pi, pi) (rad)."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
 def mid_yaw(left: Array, right: Array) -> Array:

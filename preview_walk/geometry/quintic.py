@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from preview_walk.types import Array
+
 State = tuple[float, float, float]
 """Position, velocity and acceleration of one coordinate."""
 
 
 @dataclass(frozen=True)
 class Quintic:
-    """A quintic polynomial of one coordinate over [start, end] (s), held outside."""
+    """A quintic polynomial of one coordinate over [start, end], held outside.
+
+    Attributes:
+        start: beginning of the time span, s.
+        end: end of the time span, s.
+        coefficients: of 1, u, ... u^5, with u going from 0 to 1 over the span.
+    """
 
     start: float
     end: float
@@ -18,7 +26,14 @@ class Quintic:
 
     @classmethod
     def between(cls, start: float, end: float, first: State, last: State) -> Quintic:
-        """Return the quintic with the given states at its two ends."""
+        """Return the quintic with the given states at its two ends.
+
+        Args:
+            start: time of the first state, s.
+            end: time of the last state, s, after `start`.
+            first: position, velocity and acceleration at `start`.
+            last: the same at `end`.
+        """
         h = end - start
         p0, v0, a0 = first[0], first[1] * h, 0.5 * first[2] * h * h
         dp = last[0] - p0 - v0 - a0
@@ -30,7 +45,7 @@ class Quintic:
         return cls(start, end, (p0, v0, a0, c3, c4, c5))
 
     def at(self, t: float) -> State:
-        """Return position, velocity and acceleration at time t."""
+        """Return position, velocity and acceleration at time t (s)."""
         h = self.end - self.start
         u = (t - self.start) / h
         if u < 0.0:
@@ -43,3 +58,11 @@ class Quintic:
             (b + u * (2.0 * c + u * (3.0 * d + u * (4.0 * e + u * 5.0 * f)))) / h,
             (2.0 * c + u * (6.0 * d + u * (12.0 * e + u * 20.0 * f))) / (h * h),
         )
+
+    def accelerations(self, t: Array) -> Array:
+        """Return the acceleration (N,) at times (N,) in s within the span: the last of `at`."""
+        h = self.end - self.start
+        u = (t - self.start) / h
+        _, _, c, d, e, f = self.coefficients
+        result: Array = (2.0 * c + u * (6.0 * d + u * (12.0 * e + u * 20.0 * f))) / (h * h)
+        return result

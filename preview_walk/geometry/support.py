@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, isfinite, sin
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import positive_number
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.poses import Heading
 from preview_walk.types import Array
@@ -32,9 +33,8 @@ class Sole:
     def __post_init__(self) -> None:
         """Check the sizes."""
         for name in ("half_length", "half_width"):
-            value = getattr(self, name)
-            if not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be > 0 m, got {value}.")
+            size = positive_number(getattr(self, name), name, "m")
+            object.__setattr__(self, name, size)
 
     def corners(self, pose: Array) -> Array:
         """Return the corners (4, 3) in the world, m, counter-clockwise from the front left.
@@ -66,7 +66,9 @@ def support_polygon(poses: Sequence[Array], sole: Sole) -> Array:
         InvalidInput: no foot stands.
     """
     if not poses:
-        raise InvalidInput("a support polygon needs at least one standing sole, got none.")
+        raise InvalidInput(
+            "a support polygon needs at least one standing sole, got none.", argument="poses"
+        )
     points = sorted({(float(c[0]), float(c[1])) for pose in poses for c in sole.corners(pose)})
     return np.array(_half_hull(points)[:-1] + _half_hull(points[::-1])[:-1])
 

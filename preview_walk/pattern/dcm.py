@@ -8,12 +8,27 @@ from scipy.signal import lfilter
 from preview_walk.types import Array
 
 
+def dcm_of(com: Array, velocity: Array, omega: float) -> Array:
+    """Return the DCM (m) of a CoM that moves, axis by axis (Takenaka et al. 2009).
+
+    Args:
+        com: position, any shape, m.
+        velocity: the same shape, m/s.
+        omega: natural frequency of the pendulum, 1/s.
+    """
+    return com + velocity / omega
+
+
 def planned_dcm(zmp: Array, omega_dt: float) -> Array:
-    """Return the DCM (N, 2) in m that goes with a sampled ZMP (N, 2) in m.
+    """Return the DCM (N, 2) in m that goes with a sampled ZMP.
 
     xi(t) = omega * integral from t of exp(-omega (s - t)) p(s) ds: the one bounded solution of
     xi' = omega (xi - p) (Englsberger et al. 2015, eq. 6 backwards in time), with the ZMP constant
-    over each sample and held after the last. `omega_dt` is omega times the sample time.
+    over each sample and held after the last.
+
+    Args:
+        zmp: (N, 2), m, equally spaced in time.
+        omega_dt: natural frequency of the pendulum times the sample time.
     """
     decay = float(np.exp(-omega_dt))
     last = zmp[-1]

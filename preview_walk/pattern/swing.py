@@ -7,15 +7,17 @@ Derivatives up to the acceleration are continuous, also through `Swing.retarget`
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from math import cos, hypot, isfinite, sin
+from dataclasses import dataclass, field, replace
+from math import cos, hypot, sin
 
 import numpy as np
 
+from preview_walk.arguments import SMALLEST, finite_number, number_from_zero, time_of
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.poses import as_pose, rpy_of, wrap
+from preview_walk.geometry.planar import wrap
+from preview_walk.geometry.poses import as_pose, pose_at, rpy_of
 from preview_walk.geometry.quintic import Quintic, State
 from preview_walk.types import Array
 
@@ -39,7 +41,8 @@ class Swing:
         ground_clearance: height (m) of the sole centre above the straight line from one sole
             centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
             apex is raised where `swing_height` alone does not.
-        plane, vertical: the quintics of x, y, yaw, pitch, roll; those of the height in time.
+        plane: the quintics of x, y, yaw, pitch and roll; left out when a swing is made.
+        vertical: those of the height, one after the other; left out when a swing is made.
 
     Raises:
         InvalidInput: a pose that is none, times out of order, or a negative height.
@@ -51,22 +54,22 @@ class Swing:
     land: float
     swing_height: float = 0.05
     ground_clearance: float = 0.02
-    plane: tuple[Quintic, ...] = ()
-    vertical: tuple[Quintic, ...] = ()
+    plane: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
+    vertical: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         """Check the fields; make the polynomials."""
         if self.plane:
             return
-        object.__setattr__(self, "start", as_pose(self.start, "start of the swing"))
-        object.__setattr__(self, "end", as_pose(self.end, "end of the swing"))
-        if not (isfinite(self.lift) and isfinite(self.land) and self.lift < self.land):
+        object.__setattr__(self, "start", as_pose(self.start, "start"))
+        object.__setattr__(self, "end", as_pose(self.end, "end"))
+        for name in ("lift", "land"):
+            object.__setattr__(self, name, finite_number(getattr(self, name), name, "s"))
+        if not self.land - self.lift >= SMALLEST:
             times = f"{self.lift} s, {self.land} s"
-            raise InvalidInput(f"a swing needs finite times with lift < land, got {times}.")
+            raise InvalidInput(f"a swing needs lift < land, got {times}.", argument="land")
         for name in ("swing_height", "ground_clearance"):
-            value = getattr(self, name)
-            if not (isfinite(value) and value >= 0.0):
-                raise InvalidInput(f"{name} must be >= 0 m, got {value}.")
+            object.__setattr__(self, name, number_from_zero(getattr(self, name), name, "m"))
         first, last = _coordinates(self.start), _coordinates(self.end)
         plane = tuple(
             Quintic.between(self.lift, self.land, (p, 0.0, 0.0), (q, 0.0, 0.0))
@@ -86,20 +89,18 @@ class Swing:
 
         Velocity and acceleration are [linear; angular], in the world, of the sole frame's origin.
         Before lift the sole is at `start`, after landing at `end`, at rest.
+
+        Raises:
+            InvalidInput: t is not a number.
         """
+        if type(t) is not float or t != t:
+            t = time_of(t)
         (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
             q.at(t) for q in self.plane
         )
         z, vz, az = self._height(t).at(t)
-        cw, sw, cp, sp, cr, sr = cos(w), sin(w), cos(p), sin(p), cos(r), sin(r)
-        pose = np.array(
-            [
-                [cw * cp, cw * sp * sr - sw * cr, cw * sp * cr + sw * sr, x],
-                [sw * cp, sw * sp * sr + cw * cr, sw * sp * cr - cw * sr, y],
-                [-sp, cp * sr, cp * cr, z],
-                [0.0, 0.0, 0.0, 1.0],
-            ]
-        )
+        pose = pose_at(x, y, w, z, p, r)
+        cw, sw, cp, sp = cos(w), sin(w), cos(p), sin(p)
         # Angular velocity of Rz(w) Ry(p) Rx(r), and its derivative, in the world.
         velocity = np.array(
             [vx, vy, vz, cw * cp * vr - sw * vp, sw * cp * vr + cw * vp, vw - sp * vr]
@@ -139,13 +140,14 @@ class Swing:
         Raises:
             InvalidInput: t is not within the swing, or `land` is not after t.
         """
-        land = self.land if land is None else float(land)
+        t = time_of(t)
+        land = self.land if land is None else finite_number(land, "land", "s")
         if not self.lift <= t < self.land:
             span = f"{self.lift:.3f} s to {self.land:.3f} s"
-            raise InvalidInput(f"t must be within the swing, {span}, got {t}.")
-        if not (isfinite(land) and land > t):
-            raise InvalidInput(f"the landing time must be after t = {t:.3f} s, got {land} s.")
-        end = as_pose(pose, "pose of the landing")
+            raise InvalidInput(f"t must be within the swing, {span}, got {t}.", argument="t")
+        if not land > t:
+            raise InvalidInput(f"land must be after t = {t:.3f} s, got {land} s.", argument="land")
+        end = as_pose(pose, "pose")
         plane, vertical = self._new_plane(t, end, land), self._new_vertical(t, end, land)
         return replace(self, end=end, land=land, plane=plane, vertical=vertical)
 
@@ -213,7 +215,14 @@ def swing_of(
     swing_height: float = 0.05,
     ground_clearance: float = 0.02,
 ) -> Swing:
-    """Return the swing of one step of a plan, from where its foot stands; see `Swing`."""
+    """Return the swing of one step of a plan, from where its foot stands.
+
+    Args:
+        plan: the walk.
+        step: one of its steps.
+        swing_height: as in `Swing`, m.
+        ground_clearance: as in `Swing`, m.
+    """
     return Swing(
         plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
     )

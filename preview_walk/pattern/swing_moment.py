@@ -9,7 +9,7 @@ import numpy as np
 
 from preview_walk.constants import GRAVITY
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.quintic import Quintic
+from preview_walk.geometry.planar import turn
 from preview_walk.pattern.swing import swing_of
 from preview_walk.types import Array, Foot
 
@@ -42,10 +42,16 @@ class MomentumModel:
 def swing_zmp_shift(
     plan: FootstepPlan, times: Array, model: MomentumModel, swing_height: float
 ) -> Array:
-    """Return the shift (N, 2) of the ZMP, in m, at increasing times (N,) in s.
+    """Return the shift (N, 2) of the ZMP (m) that the swings cause.
 
     The true ZMP is the cart-table's plus this shift: (-L'_y, L'_x) / (m g) with L' the rate of
     angular momentum of the swings of the plan (Kajita et al. 2014, eq. 3.73).
+
+    Args:
+        plan: the walk.
+        times: increasing times (N,), s.
+        model: angular momentum of the legs.
+        swing_height: of the apex of a swing above the higher sole, m.
     """
     shift = np.zeros((len(times), 2))
     for step in plan.steps:
@@ -56,26 +62,14 @@ def swing_zmp_shift(
             continue
         t = times[first:last]
         swing = swing_of(plan, step, swing_height)
-        x, y = (_acceleration(swing.plane[axis], t) for axis in (0, 1))
+        x, y = (swing.plane[axis].accelerations(t) for axis in (0, 1))
         z = np.zeros(len(t))
         for piece in swing.vertical:
             inside = (t >= piece.start) & (t < piece.end)
-            z[inside] = _acceleration(piece, t[inside])
+            z[inside] = piece.accelerations(t[inside])
         yaw = step.yaw
-        c, s = np.cos(yaw), np.sin(yaw)
-        forward, left = c * x + s * y, c * y - s * x
-        rate = np.column_stack([forward, left, z]) @ model.foot[step.foot].T
-        dx, dy = -rate[:, 1], rate[:, 0]
-        shift[first:last, 0] = c * dx - s * dy
-        shift[first:last, 1] = s * dx + c * dy
+        ahead = turn(np.column_stack([x, y]), -yaw)
+        rate = np.column_stack([ahead, z]) @ model.foot[step.foot].T
+        shift[first:last] = turn(np.column_stack([-rate[:, 1], rate[:, 0]]), yaw)
     shift /= model.mass * GRAVITY
     return shift
-
-
-def _acceleration(path: Quintic, t: Array) -> Array:
-    """Return the acceleration (N,) of a quintic at times (N,) within it."""
-    h = path.end - path.start
-    u = (t - path.start) / h
-    _, _, c, d, e, f = path.coefficients
-    result: Array = (2.0 * c + u * (6.0 * d + u * (12.0 * e + u * 20.0 * f))) / (h * h)
-    return result

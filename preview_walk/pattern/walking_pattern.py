@@ -14,7 +14,7 @@ from preview_walk.constants import GRAVITY
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.support import Sole
 from preview_walk.pattern.com_height import LegGeometry, wanted_heights
-from preview_walk.pattern.dcm import planned_dcm
+from preview_walk.pattern.dcm import dcm_of, planned_dcm
 from preview_walk.pattern.swing_moment import MomentumModel, swing_zmp_shift
 from preview_walk.pattern.zmp_reference import zmp_reference
 from preview_walk.preview.controller import ComState, PreviewController
@@ -155,9 +155,7 @@ class WalkingPattern:
         tau = min(max(t - self._start - self._tick * PLANNING_DT, 0.0), PLANNING_DT)
         state = self.controller.interpolate(self._now, self._next, tau)
         vertical = self._lift.interpolate(self._now_z, self._next_z, tau)
-        x, y = state.com.tolist()
-        vx, vy = state.velocity.tolist()
-        ax, ay = state.acceleration.tolist()
+        (x, y), (vx, vy), (ax, ay) = state.array[:3].tolist()
         sample = self._tick - self._first
         share = tau / PLANNING_DT
         here = min(sample, len(self._samples) - 1)
@@ -170,6 +168,6 @@ class WalkingPattern:
             np.array((ax, ay, vertical.acceleration[0])),
             state.zmp + shift,
             reference,
-            np.array((x + vx / self.omega, y + vy / self.omega)),
+            dcm_of(state.com, state.velocity, self.omega),
             0.5 * sum(float(self._plan.sole(foot, t)[2, 3]) for foot in FEET),
         )

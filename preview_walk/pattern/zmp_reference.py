@@ -11,13 +11,14 @@ ends after the lift, as far as the standing sole allows: with the 31 ms of doubl
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import instance_of, number_from_zero, real_array, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.support import Sole
 from preview_walk.types import Array, other
 
@@ -60,23 +61,34 @@ class ZMPReference:
         object.__setattr__(self, "_origins", np.concatenate((self.times[:1], self.times)))
 
     def at(self, t: ArrayLike) -> Array:
-        """Return the ZMP (m) at time t (s): (2,) for one time, (N, 2) for N times."""
+        """Return the ZMP (m) at time t (s): (2,) for one time, (N, 2) for N times.
+
+        Raises:
+            InvalidInput: a time is not a finite number.
+        """
         c, u = self._locate(t)
         return np.asarray(c[..., 0, :] + u * (c[..., 1, :] + u * (c[..., 2, :] + u * c[..., 3, :])))
 
     def velocity(self, t: ArrayLike) -> Array:
-        """Return the velocity of the ZMP (m/s) at time t (s): (2,) or (N, 2)."""
+        """Return the velocity of the ZMP (m/s) at time t (s): (2,) or (N, 2).
+
+        Raises:
+            InvalidInput: a time is not a finite number.
+        """
         c, u = self._locate(t)
         return np.asarray(c[..., 1, :] + u * (2.0 * c[..., 2, :] + 3.0 * u * c[..., 3, :]))
 
     def _locate(self, t: ArrayLike) -> tuple[Array, Array]:
-        times = np.asarray(t, dtype=np.float64)
+        """Return the polynomials (..., 4, 2) at times t (s), and the times since they began."""
+        times = real_array(t, "t", "times in s")
+        if not np.isfinite(times).all():
+            raise InvalidInput(f"t must be finite times in s, got {shown(t)}.", argument="t")
         i = np.searchsorted(self.times, times, side="right")
         return self._coefficients[i], (times - self._origins[i])[..., None]
 
 
 def zmp_reference(
-    plan: FootstepPlan, sole: Sole | None = None, margin: float = ZMP_MARGIN
+    plan: PlanLike, sole: Sole | None = None, margin: float = ZMP_MARGIN
 ) -> ZMPReference:
     """Return the ZMP reference of a plan.
 
@@ -84,17 +96,16 @@ def zmp_reference(
     midway between the soles; it leaves and reaches that point in `plan.weight_shift` seconds.
 
     Args:
-        plan: the walk.
+        plan: the walk; whatever `as_plan` takes.
         sole: half sizes of the soles; bounds how far a crossing reaches into single support.
         margin: distance (m) that the ZMP keeps from the edge of the only standing sole; the sole
             centre is always allowed.
 
     Raises:
-        InvalidInput: the margin is not >= 0.
+        InvalidInput: no plan, no sole, or a margin that is not >= 0.
     """
-    if not (isfinite(margin) and margin >= 0.0):
-        raise InvalidInput(f"margin must be >= 0 m, got {margin}.")
-    sole = Sole() if sole is None else sole
+    plan, margin = as_plan(plan), number_from_zero(margin, "margin", "m")
+    sole = Sole() if sole is None else instance_of(sole, Sole, "sole")
     weight_shift, n = plan.weight_shift, len(plan.steps)
     poses = np.array([s.pose for s in plan])
     standing, stance = _standing(plan)

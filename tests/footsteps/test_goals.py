@@ -81,11 +81,11 @@ def test_a_foothold_out_of_reach_is_refused_or_shortened():
         ),
         (
             lambda: from_list([("both", (0, 0))], PLANNER),
-            "step 1 must be of foot 'left' or 'right', got 'both'.",
+            "the foot of step 1 must be 'left' or 'right', got 'both'.",
         ),
         (
             lambda: from_list([("left", (0.1, 0.085))], PLANNER, step_times=[]),
-            "step_times must hold one time per foothold, 1, got 0.",
+            "step_times must hold one time per foothold, 1, got [].",
         ),
         (
             lambda: from_list([("left", np.eye(3))], PLANNER),
@@ -94,8 +94,7 @@ def test_a_foothold_out_of_reach_is_refused_or_shortened():
         ),
         (
             lambda: from_list([("left", "there")], PLANNER),
-            "the sole of step 1 must be a finite (4, 4) homogeneous pose with an orthonormal "
-            "right-handed rotation, got 'there'.",
+            "the sole of step 1 must be (x, y), (x, y, yaw) or a (4, 4) pose, got 'there'.",
         ),
     ],
 )

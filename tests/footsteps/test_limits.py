@@ -30,62 +30,91 @@ def raises(sentence):
             "left",
             (0.6, 0.2),
             0.0,
-            "lands 0.600 m ahead of the right sole, at most 0.500 m is allowed",
+            ("lands 0.600 m ahead of the right sole, at most 0.500 m is allowed", "step_length"),
         ),
         (
             "right",
             (-0.4, -0.2),
             0.0,
-            "lands 0.400 m behind the left sole, at most 0.300 m is allowed",
+            ("lands 0.400 m behind the left sole, at most 0.300 m is allowed", "step_length"),
         ),
         (
             "right",
             (0.0, -0.5),
             0.0,
-            "lands 0.500 m beside the left sole, at most 0.400 m is allowed",
+            ("lands 0.500 m beside the left sole, at most 0.400 m is allowed", "step_width"),
         ),
         (
             "left",
             (0.3, -0.1),
             0.0,
-            "lands -0.100 m beside the right sole, at least 0.120 m is allowed",
+            ("lands -0.100 m beside the right sole, at least 0.120 m is allowed", "step_width"),
         ),
         (
             "left",
             (0.0, 0.3, 0.6),
             0.0,
-            "turns 0.600 rad out from the right sole, at most 0.500 rad is allowed",
+            (
+                "turns 0.600 rad (34.4 degrees) out from the right sole, "
+                "at most 0.500 rad (28.6 degrees) is allowed",
+                "turn",
+            ),
         ),
         (
             "right",
             (0.0, -0.3, 0.3),
             0.0,
-            "turns 0.300 rad in to the left sole, at most 0.200 rad is allowed",
+            (
+                "turns 0.300 rad (17.2 degrees) in to the left sole, "
+                "at most 0.200 rad (11.5 degrees) is allowed",
+                "turn",
+            ),
         ),
         (
             "left",
             (0.0, 0.2),
             -0.3,
-            "lands 0.300 m higher or lower than the right sole, at most 0.200 m is allowed",
+            (
+                "lands 0.300 m higher or lower than the right sole, at most 0.200 m is allowed",
+                "footholds",
+            ),
         ),
         (
             "left",
             (0.0, 0.12, 0.4),
             0.0,
-            "collides with the right sole (overlap 0.015 m), at least 0.010 m must stay free",
+            (
+                "collides with the right sole (overlap 0.015 m), at least 0.010 m must stay free",
+                "turn",
+            ),
         ),
     ],
 )
 def test_problems_in_words(foot, landing, z, problem):
     where = (3.0, -4.0, 2.0)
-    assert LIMITS.problem(foot, pose_at(*where), pose_at(*compose(where, *landing), z)) == problem
+    found = LIMITS.problem(foot, pose_at(*where), pose_at(*compose(where, *landing), z))
+    assert (found and (found.text, found.argument)) == problem
 
 
 def test_a_narrow_gap_is_told_from_a_collision():
     tight = replace(LIMITS, min_width=0.1)
-    assert tight.problem("left", np.eye(4), pose_at(0.0, 0.105)) == (
-        "passes 0.005 m from the right sole, at least 0.010 m must stay free"
-    )
+    found = tight.problem("left", np.eye(4), pose_at(0.0, 0.105))
+    assert found.text == "passes 0.005 m from the right sole, at least 0.010 m must stay free"
+    assert found.argument == "step_width"
+
+
+def test_a_turned_sole_is_too_near_by_its_turn():
+    found = LIMITS.problem("left", np.eye(4), pose_at(0.0, 0.11, -0.1))
+    assert found.text == "lands 0.110 m beside the right sole, at least 0.120 m is allowed"
+    assert found.argument == "turn"
+
+
+def test_a_swing_across_the_standing_sole():
+    stance, start, landing = pose_at(0.0, 0.0), pose_at(0.0, -0.2), pose_at(0.0, 0.2)
+    found = LIMITS.crossing("left", stance, start, landing)
+    assert found.text == "swings across the right sole (overlap 0.100 m)"
+    assert found.argument == "step_width"
+    assert LIMITS.crossing("left", stance, landing, landing) is None
 
 
 headings = st.tuples(st.floats(-2, 2), st.floats(-2, 2), st.floats(-3.1, 3.1))
@@ -119,7 +148,7 @@ def test_a_leg_gives_limits_in_proportion():
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: GaitLimits(forward=0.0), "forward must be finite and > 0, got 0.0."),
+        (lambda: GaitLimits(forward=0.0), "forward must be > 0 m, got 0.0."),
         (
             lambda: GaitLimits(step_width=0.5),
             "step_width must be between min_width and max_width, got 0.12 <= 0.5 <= 0.4 m.",
@@ -131,7 +160,7 @@ def test_a_leg_gives_limits_in_proportion():
         ),
         (
             lambda: GaitLimits(slow_double_support=1.0),
-            "double support must be a share of the step time in (0, 1), got 1.0 and 0.05.",
+            "slow_double_support must be in (0, 1), the share of the step time, got 1.0.",
         ),
         (lambda: GaitLimits.for_leg(-1.0, 0.2), "leg_length must be > 0 m, got -1.0."),
         (

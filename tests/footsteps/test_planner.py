@@ -8,8 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.layout import STAND_TIME
 from preview_walk.footsteps.limits import GaitLimits
-from preview_walk.footsteps.planner import STAND_TIME, FootstepPlanner, Stride
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.stride import Stride
 from preview_walk.geometry.poses import midfeet, pose_at
 from preview_walk.geometry.support import Sole
 from preview_walk.types import FEET, other

@@ -186,5 +186,7 @@ def test_what_is_no_command_is_refused(command):
 
 
 def test_times_are_checked():
-    with raises("t must be finite and duration >= 0 (s), got t = nan and duration = 2.4."):
+    with raises("duration must be >= 0 s, got -1.0."):
+        follow_velocity(STAND, 0.0, (0.1, 0.0, 0.0), LIMITS, -1.0)
+    with raises("t must be finite (s), got nan."):
         follow_velocity(STAND, np.nan, (0.1, 0.0, 0.0), LIMITS)

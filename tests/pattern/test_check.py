@@ -8,7 +8,8 @@ import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.limits import GaitLimits
-from preview_walk.footsteps.planner import FootstepPlanner, Stride
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.stride import Stride
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole
 from preview_walk.pattern.check import check_plan, require_walkable
@@ -130,7 +131,7 @@ def test_several_findings_are_counted():
 def test_references_need_times_and_shapes():
     with raises("times (N,) must be given with zmp or com, got None."):
         check_plan(PLAN, LIMITS, zmp=ZMP)
-    with raises("times must increase."):
+    with raises("times must be finite and increase."):
         check_plan(PLAN, LIMITS, [0.0, 0.0])
     with raises("times must have shape (N,), got ()."):
         check_plan(PLAN, LIMITS, 1.0)

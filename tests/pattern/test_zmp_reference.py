@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.footsteps.planner import FootstepPlanner, Stride
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.stride import Stride
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole, support_margin, support_polygon
 from preview_walk.lab.zmp import ZMPTrajectoryGenerator
