@@ -10,7 +10,8 @@ from preview_walk.controller.feet import Feet
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import leg_geometry
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.poses import pose_at, wrap, yaw_of
+from preview_walk.geometry.planar import wrap
+from preview_walk.geometry.poses import pose_at, yaw_of
 from preview_walk.geometry.support import Sole
 from preview_walk.pattern.walking_pattern import PLANNING_DT, ComReference, WalkingPattern
 from preview_walk.robots.robot import Robot

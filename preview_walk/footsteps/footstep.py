@@ -60,6 +60,11 @@ class Footstep:
         object.__setattr__(self, "lift", lift)
         object.__setattr__(self, "land", land)
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take a copied state; NumPy's copies forget that they are read-only."""
+        vars(self).update(state)
+        self.pose.setflags(write=False)
+
     @property
     def pos(self) -> Array:
         """Position (3,) of the sole centre in the world, m."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pinocchio as pin
 
@@ -23,14 +25,21 @@ class FrameTerms:
       that the acceleration is jacobian @ a + drift.
     """
 
-    def __init__(self, model: pin.Model, data: pin.Data, frame: int) -> None:
+    def __init__(self, owner: Dynamics, frame: int) -> None:
+        """Look at a frame (Pinocchio's id) of the dynamics that will keep it up to date."""
+        self._owner = owner
         self.frame = frame
+        model, data = owner.model, owner.data
         # Views of Pinocchio's own memory: they follow every update of the placement.
         self.rotation: Array = data.oMf[frame].rotation
         self.position: Array = data.oMf[frame].translation
         self.velocity: Array = np.zeros(6)
         self.jacobian: Array = np.zeros((6, model.nv))
         self.drift: Array = np.zeros(6)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Find the same frame of the copied dynamics, whose memory the views look at."""
+        return _frame_of, (self._owner, self.frame)
 
     @property
     def pose(self) -> Array:
@@ -90,10 +99,14 @@ class Dynamics:
         self._linear_momentum: Array = data.Ag[:3]
         self._frames: dict[int, FrameTerms] = {}
         self.soles: dict[Foot, FrameTerms] = {
-            foot: self._add(robot.soles[foot].frame) for foot in FEET
+            foot: self.add_frame(robot.soles[foot].frame) for foot in FEET
         }
-        self.torso = self._add(robot.torso)
+        self.torso = self.add_frame(robot.torso)
         self.update(self.q, self.v)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Compute the terms of the copy anew: they are views of Pinocchio's own memory."""
+        return _dynamics_at, (self.robot, np.array(self.q), np.array(self.v), [*self._frames])
 
     def frame(self, name: str) -> FrameTerms:
         """Return the terms of a frame of the Pinocchio model, kept up to date from now on.
@@ -105,13 +118,14 @@ class Dynamics:
                 f"expected the name of a frame of {self.robot.name}, got '{name}'; it has "
                 f"{', '.join(frame.name for frame in self.model.frames)}"
             )
-        terms = self._add(self.model.getFrameId(name))
+        terms = self.add_frame(self.model.getFrameId(name))
         terms.update(self.model, self.data)
         return terms
 
-    def _add(self, frame: int) -> FrameTerms:
+    def add_frame(self, frame: int) -> FrameTerms:
+        """Return the terms of a frame by its Pinocchio id, kept up to date from the next update."""
         if frame not in self._frames:
-            self._frames[frame] = FrameTerms(self.model, self.data, frame)
+            self._frames[frame] = FrameTerms(self, frame)
         return self._frames[frame]
 
     def update(self, q: Array, v: Array) -> None:
@@ -144,3 +158,17 @@ class Dynamics:
         rotation, lever = self._base_rotation, self.com - self._base_position
         force, moment = rotation @ self._nle[:3], rotation @ self._nle[3:6]
         np.subtract(moment, np.cross(lever, force), out=self.momentum_drift)
+
+
+def _dynamics_at(robot: Robot, q: Array, v: Array, frames: list[int]) -> Dynamics:
+    """Return the dynamics at a state, with these frames kept up to date."""
+    dynamics = Dynamics(robot)
+    for frame in frames:
+        dynamics.add_frame(frame)
+    dynamics.update(q, v)
+    return dynamics
+
+
+def _frame_of(dynamics: Dynamics, frame: int) -> FrameTerms:
+    """Return the terms of a frame that the dynamics keep up to date."""
+    return dynamics.add_frame(frame)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 import qpsolvers
@@ -82,6 +83,10 @@ class WholeBodyController:
         self._gravity = -float(robot.pin.gravity.linear[2])
         self._problems: dict[tuple[Foot, ...], TickProblem] = {}
         self._contacts: tuple[Foot, ...] = ()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the QPs, which are views into each other and made again when needed."""
+        return {**vars(self), "_problems": {}}
 
     @property
     def status(self) -> int:

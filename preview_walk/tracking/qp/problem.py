@@ -64,7 +64,8 @@ class TickProblem:
       inverse weights (0: an equality), in the order tasks, contacts, base. The base's rows (last
       six) have `wrench_map` (6, nf) @ f on their right-hand side.
     - `contact_jacobian` (nf, nv): those of the rows that are the contacts'.
-    - `regularization_target`, `regularization_weight` (nv,): the accelerations drawn to, the posture's.
+    - `regularization_target`, `regularization_weight` (nv,): the accelerations drawn to, those of
+      the posture.
     - `wrench_weight` (nf,) per N^2 or (N·m)^2.
     - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
     - `limits` (2, 2 n): lowest and highest values of the joints' torques and, beside them, of

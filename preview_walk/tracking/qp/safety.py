@@ -12,6 +12,8 @@ A measured state that is not finite has no safe answer: `StateError` stops the w
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import qpsolvers
 
@@ -58,6 +60,10 @@ class QPFailure(PreviewWalkError):
         why = cause if solution is None else solution.status
         super().__init__(f"the QP of a tick was not solved: {why}.")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Make it again from its evidence."""
+        return type(self), (self.problem, self.solution, self.cause)
+
 
 def check_state(q: Array, v: Array, robot: Robot) -> None:
     """Raise `StateError` unless q (nq,) and v (nv,) are finite."""
@@ -83,13 +89,13 @@ class Fallback:
         self.status = SOLVED
         self.count = 0
         self._row = 0
-        self._last: tuple[TickProblem, Solution] | None = None
+        self._last: tuple[tuple[Foot, ...], Solution] | None = None
         self._held: Array | None = None
 
     def solved(self, problem: TickProblem, solution: Solution) -> None:
         """Take note of a solved tick."""
         self.status, self._row = SOLVED, 0
-        self._last, self._held = (problem, solution), None
+        self._last, self._held = (problem.contacts, solution), None
 
     def solution(self, problem: TickProblem, dynamics: Dynamics) -> Solution:
         """Return what stands in for the solution of an unsolved tick."""
@@ -97,8 +103,8 @@ class Fallback:
         self._row += 1
         if self._last is not None and self._row <= STALE_TICKS:
             self.status = LAST_SOLUTION
-            before, last = self._last
-            wrench = _for_contacts(problem, before.contacts, last.wrench)
+            contacts, last = self._last
+            wrench = _for_contacts(problem, contacts, last.wrench)
             torques = problem.forces(last.acceleration, wrench)[6:]
             return Solution(last.acceleration, wrench, torques, False, 0, "last solution")
         self.status = DAMPED_POSTURE
@@ -112,7 +118,7 @@ class Fallback:
         q, v = dynamics.q[7:], dynamics.v[6:]
         if self._held is None:
             self._held = q.copy()
-        contacts = problem.contacts if self._last is None else self._last[0].contacts
+        contacts = problem.contacts if self._last is None else self._last[0]
         soles = [dynamics.soles[foot] for foot in contacts]
         jacobian = np.vstack([np.zeros((0, problem.nv)), *(sole.jacobian for sole in soles)])
         stay = np.concatenate([[], *(-sole.drift - BRAKE * sole.velocity for sole in soles)])

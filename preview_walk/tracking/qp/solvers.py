@@ -91,6 +91,10 @@ class OsqpBackend:
         self._working_set: dict[int, int] = {}  # limit -> ticks since it was reached
         self._multipliers: dict[object, Array] = {}
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out OSQP's workspaces: a solve starts from the multipliers, which are kept."""
+        return {**vars(self), "_workspaces": {}}
+
     def solve(self, problem: TickProblem) -> Solution:
         """See `Backend.solve`."""
         iterations = 0
