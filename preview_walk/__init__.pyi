@@ -2,7 +2,6 @@
 
 __version__: str
 
-# Preview control, for any linear plant.
 from .analysis.plots import plot as plot
 from .analysis.plots import plot_all as plot_all
 from .analysis.plots import save_plot as save_plot
@@ -42,12 +41,16 @@ from .pattern.check import check_plan as check_plan
 from .pattern.check import require_walkable as require_walkable
 from .pattern.swing import Swing as Swing
 from .pattern.zmp_reference import zmp_reference as zmp_reference
+
+# Preview control, for any linear plant.
 from .preview.cart_table import ComState as ComState
 from .preview.cart_table import ComTrajectory as ComTrajectory
 from .preview.cart_table import cart_table as cart_table
 from .preview.controller import PreviewController as PreviewController
-from .preview.gains import PreviewDesign as PreviewDesign
+from .preview.design import PreviewDesign as PreviewDesign
 from .preview.gains import preview_gains as preview_gains
+from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
+from .preview.response import Tracking as Tracking
 from .preview.response import preview_effect as preview_effect
 from .preview.response import track as track
 

@@ -13,13 +13,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import control
 import numpy as np
 
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import read_only, require_positive
 from preview_walk.types import Array
+
+if TYPE_CHECKING:
+    import control
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +40,14 @@ class ComState:
     """
 
     array: Array
+
+    def __reduce__(self) -> tuple[type[ComState], tuple[Array]]:
+        """Pickle so that the array is read-only again afterwards."""
+        return _locked, (self.array,)  # type: ignore[return-value]
+
+    def __repr__(self) -> str:
+        numbers = (f"[{row[0]:.4g}, {row[1]:.4g}]" for row in self.array[[0, 1, 4]])
+        return "ComState(com {} m, velocity {} m/s, zmp {} m)".format(*numbers)
 
     @property
     def com(self) -> Array:
@@ -91,6 +103,14 @@ class ComTrajectory:
     jerk: Array
     zmp: Array
 
+    def __repr__(self) -> str:
+        return f"ComTrajectory({len(self.com)} samples of {self.dt} s, {self.com.ndim} axes)"
+
+
+def _locked(array: Array) -> ComState:
+    """Return the state of an array, made read-only."""
+    return ComState(read_only(array))
+
 
 def natural_frequency(z_c: float, gravity: float = GRAVITY) -> float:
     """Return omega = sqrt(g / z_c) in rad/s, the rate at which a cart-table falls.
@@ -106,15 +126,20 @@ def natural_frequency(z_c: float, gravity: float = GRAVITY) -> float:
         InvalidInput: If one of them is not a positive, finite number.
 
     """
-    _require_positive("z_c", z_c, "m")
-    _require_positive("gravity", gravity, "m/s^2")
+    require_positive("z_c", z_c, "m")
+    require_positive("gravity", gravity, "m/s^2")
     return math.sqrt(gravity / z_c)
 
 
 def transition(tau: float) -> tuple[Array, Array]:
     """Return (A, B) of x(t + tau) = A x(t) + B u for a jerk u that is constant in between.
 
-    Exact for every tau (s), negative ones included: A is (3, 3), B is (3, 1).
+    Args:
+        tau: Time (s); the matrices are exact for every tau, negative ones included.
+
+    Returns:
+        A (3, 3) and B (3, 1).
+
     """
     a = np.array([[1.0, tau, tau * tau / 2.0], [0.0, 1.0, tau], [0.0, 0.0, 1.0]])
     b = np.array([[tau**3 / 6.0], [tau * tau / 2.0], [tau]])
@@ -122,7 +147,16 @@ def transition(tau: float) -> tuple[Array, Array]:
 
 
 def zmp_output(z_c: float, gravity: float = GRAVITY) -> Array:
-    """Return C = [1, 0, -z_c / g], (1, 3), the row that reads the ZMP (m) from x."""
+    """Return C = [1, 0, -z_c / g], (1, 3), the row that reads the ZMP (m) from x.
+
+    Args:
+        z_c: Height of the CoM above the ZMP (m).
+        gravity: Acceleration of gravity (m/s^2).
+
+    Raises:
+        InvalidInput: If one of them is not a positive, finite number.
+
+    """
     natural_frequency(z_c, gravity)
     return np.array([[1.0, 0.0, -z_c / gravity]])
 
@@ -145,12 +179,19 @@ def cart_table(
         InvalidInput: If z_c, dt or gravity is not a positive, finite number.
 
     """
+    import control
+
     output = zmp_output(z_c, gravity)
     if dt is None:
         a, b, timebase = np.eye(3, k=1), np.array([[0.0], [0.0], [1.0]]), 0.0
     else:
-        _require_positive("dt", dt, "s")
-        (a, b), timebase = transition(dt), float(dt)
+        require_positive("dt", dt, "s")
+        try:
+            (a, b), timebase = transition(float(dt)), float(dt)
+        except OverflowError:
+            raise InvalidInput(
+                f"expected dt whose third power is a number, got {dt:g} s.", argument="dt"
+            ) from None
     return control.StateSpace(
         a,
         b,
@@ -162,8 +203,3 @@ def cart_table(
         outputs=["zmp"],
         name="cart_table",
     )
-
-
-def _require_positive(name: str, value: float, unit: str) -> None:
-    if not (math.isfinite(value) and value > 0.0):
-        raise InvalidInput(f"expected {name} to be a positive number of {unit}, got {value}.")

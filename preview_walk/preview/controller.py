@@ -16,8 +16,12 @@ from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table
+from preview_walk.preview.checks import read_only, real_array, require_positive, shown
+from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
+from preview_walk.preview.horizon import MAX_HORIZON
 from preview_walk.preview.response import PreviewFilter
+from preview_walk.preview.zmp_input import check_times, read_zmp_reference, start_rows
 from preview_walk.types import Array
 
 __all__ = ["ComState", "ComTrajectory", "PreviewController"]
@@ -57,34 +61,59 @@ class PreviewController:
             r: Weight of the increment of the jerk; the three weights are Kajita's.
 
         Raises:
-            InvalidInput: If a number cannot be, or if the preview time is shorter than two time
-                constants sqrt(z_c / g) of the pendulum.
+            InvalidInput: If a number cannot be.
+
+        Warns:
+            ShortHorizonWarning: If the preview time is shorter than two time constants
+                sqrt(z_c / g) of the pendulum.
 
         """
+        require_positive("dt", dt, "s")
         system = cart_table(z_c, dt)
-        if not (math.isfinite(preview_time) and preview_time > 0.0):
+        require_positive("preview_time", preview_time, "s")
+        if not preview_time / dt <= MAX_HORIZON:
             raise InvalidInput(
-                f"expected preview_time to be a positive number of s, got {preview_time}."
+                f"expected preview_time to be at most {MAX_HORIZON} samples of dt = {dt:g} s, got "
+                f"{preview_time:g} s.",
+                argument="preview_time",
             )
         self.z_c = float(z_c)
         self.dt = float(dt)
         self.n_preview = max(1, round(preview_time / dt))
-        self.design = preview_gains(system, q_e, q_x, r, self.n_preview)
-        self.window_offsets = self.dt * np.arange(1, self.n_preview + 1)
-        self.window_offsets.flags.writeable = False
+        try:
+            design = preview_gains(system, q_e, q_x, r, self.n_preview)
+        except InvalidInput as error:
+            names = {"Q_e": "q_e", "Q_x": "q_x", "R": "r"}
+            argument = names.get(error.argument or "", error.argument)
+            raise InvalidInput(str(error), argument=argument) from error
+        self._prepare(design)
 
+    def __repr__(self) -> str:
+        return f"PreviewController(z_c={self.z_c}, dt={self.dt}, n_preview={self.n_preview})"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickle the design; the filter and the matrices of a tick follow from it."""
+        return _restored, (type(self), self.z_c, self.dt, self.design)
+
+    def _prepare(self, design: PreviewDesign) -> None:
+        """Make ready what a tick and a whole trajectory need of a design."""
+        self.design = design
+        self.window_offsets = read_only(
+            self.dt * np.arange(1, self.n_preview + 1, dtype=np.float64)
+        )
+        plant = design.plant
         self._filter = PreviewFilter(self.design)
-        self._lever = -float(system.C[0, 2])
+        self._lever = -float(plant.C[0, 2])
         self._window_gain = np.ascontiguousarray(self.design.window_gain[:, 0, 0])
         # One matrix takes the five rows of a state to the next; the ZMP row is not fed back.
         row = np.array([0.0, 0.0, 0.0, 1.0]) - self.design.feedback[0]
         step = np.zeros((5, 5))
-        step[:3, :3] = system.A
-        step[:3, :4] += system.B @ row[None]
+        step[:3, :3] = plant.A
+        step[:3, :4] += plant.B @ row[None]
         step[3, :4] = row
         step[4] = step[0] - self._lever * step[2]
         self._step = step
-        b = np.append(system.B[:, 0], 1.0)
+        b = np.append(plant.B[:, 0], 1.0)
         self._step_input = np.append(b, b[0] - self._lever * b[2])[:, None]
 
     def initial_state(
@@ -113,9 +142,11 @@ class PreviewController:
             ("acceleration", acceleration),
             ("jerk", jerk),
         ):
-            row = np.asarray(value, dtype=float)
+            row = real_array(name, value, "two finite numbers")
             if row.shape != (2,) or not np.isfinite(row).all():
-                raise InvalidInput(f"expected {name} to be two finite numbers, got {value!r}.")
+                raise InvalidInput(
+                    f"expected {name} to be two finite numbers, got {shown(value)}.", argument=name
+                )
             rows.append(row)
         return _state(np.array([*rows, rows[0] - self._lever * rows[2]]))
 
@@ -135,7 +166,7 @@ class PreviewController:
             action = self._window_gain @ zmp_window
             array = self._step @ state.array + self._step_input * action
             valid = action.shape == (2,) and math.isfinite(action[0] + action[1])
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             valid = False
         if not valid:
             self._refuse_window(zmp_window)
@@ -156,8 +187,14 @@ class PreviewController:
             InvalidInput: If tau is outside [0, dt].
 
         """
-        if not 0.0 <= tau <= self.dt * (1.0 + 1e-9):
-            raise InvalidInput(f"expected tau to be 0 to {self.dt} s, got {tau}.")
+        try:
+            inside = 0.0 <= tau <= self.dt * (1.0 + 1e-9)
+        except (TypeError, ValueError):
+            inside = False
+        if not inside:
+            raise InvalidInput(
+                f"expected tau to be 0 to {self.dt} s, got {shown(tau)}.", argument="tau"
+            )
         (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
         jx, jy = following.array[3].tolist()
         half, sixth = 0.5 * tau, tau / 3.0
@@ -197,29 +234,15 @@ class PreviewController:
             InvalidInput: If a shape is wrong, a value not finite, or t not in steps of dt.
 
         """
-        reference = np.asarray(zmp_ref, dtype=float)
-        if (
-            reference.ndim not in (1, 2)
-            or len(reference) < 1
-            or reference.shape[1:]
-            not in (
-                (),
-                (2,),
-            )
-        ):
-            raise InvalidInput(
-                f"expected zmp_ref of shape (N,) or (N, 2) with N >= 1, got {reference.shape}."
-            )
-        if not np.isfinite(reference).all():
-            raise InvalidInput("expected a finite zmp_ref, got NaN or infinity.")
+        reference = read_zmp_reference(zmp_ref)
         axes = reference.reshape(len(reference), -1).T
         if t is not None:
-            self._check_times(np.asarray(t, dtype=float), len(reference))
+            check_times(t, len(reference), self.dt)
         # The law does not care where the origin is; numbers near zero lose fewer digits.
         origin = axes[:, 0].copy()
-        start = self._start(x0, origin)
+        start = start_rows(x0, origin)
         start[:, 0] -= origin
-        states = self._filter.run((axes - origin[:, None])[:, None], start)
+        states, _ = self._filter.run((axes - origin[:, None])[:, None], start)
         com, velocity, acceleration, jerk = np.ascontiguousarray(states.T).reshape(
             (4, *reference.shape)
         )
@@ -236,50 +259,42 @@ class PreviewController:
     ) -> tuple[Array, Array]:
         """Return CoM position (m) and velocity (m/s), each of the shape of zmp_ref.
 
-        The lab's call; `trajectory` takes the same arguments and also returns acceleration,
-        jerk and ZMP.
+        The lab's call; `trajectory` also returns acceleration, jerk and ZMP.
+
+        Args:
+            zmp_ref: (N,) or (N, 2) ZMP reference (m), as for `trajectory`.
+            x0: Where the CoM starts, as for `trajectory`.
+            t: (N,) times of the reference samples (s), as for `trajectory`.
+
+        Raises:
+            InvalidInput: If a shape is wrong, a value not finite, or t not in steps of dt.
+
         """
         result = self.trajectory(zmp_ref, x0, t=t)
         return result.com, result.velocity
 
-    def _start(self, x0: ArrayLike | ComState | None, first: Array) -> Array:
-        """Return [c, c', c'', jerk before] for each axis, (axes, 4)."""
-        axes = len(first)
-        if isinstance(x0, ComState):
-            if axes != 2:
-                raise InvalidInput(
-                    "expected a ComState to start a zmp_ref of shape (N, 2), got one axis."
-                )
-            return np.array(x0.array[:4].T)
-        start = np.zeros((axes, 4))
-        values = first if x0 is None else np.asarray(x0, dtype=float)
-        shapes = ((), (1,), (3,), (1, 3)) if axes == 1 else ((2,), (2, 3))
-        if values.shape not in shapes or not np.isfinite(values).all():
-            allowed = "a number or [c, c', c'']" if axes == 1 else "of shape (2,) or (2, 3)"
-            raise InvalidInput(f"expected x0 to be finite and {allowed}, got {x0!r}.")
-        if values.shape in ((), (1,), (2,)):
-            start[:, 0] = values
-        else:
-            start[:, :3] = values
-        return start
-
-    def _check_times(self, t: Array, length: int) -> None:
-        if t.shape != (length,):
-            raise InvalidInput(f"expected t of shape ({length},), got {t.shape}.")
-        steps = np.diff(t)
-        if length > 1 and not np.abs(steps - self.dt).max() <= 1e-6 * self.dt:
-            raise InvalidInput(
-                f"expected zmp_ref sampled every {self.dt:g} s, the dt of the controller, got "
-                f"samples {steps.min():g} to {steps.max():g} s apart."
-            )
-
     def _refuse_window(self, window: Array) -> None:
-        shape = np.shape(window)
+        shape = real_array("zmp_window", window).shape
         if shape != (self.n_preview, 2):
-            raise InvalidInput(f"expected zmp_window of shape ({self.n_preview}, 2), got {shape}.")
-        raise InvalidInput("expected a finite zmp_window, got NaN or infinity.")
+            raise InvalidInput(
+                f"expected zmp_window of shape ({self.n_preview}, 2), got {shape}.",
+                argument="zmp_window",
+            )
+        raise InvalidInput(
+            "expected a finite zmp_window, got NaN or infinity.", argument="zmp_window"
+        )
 
 
 def _state(array: Array) -> ComState:
     array.flags.writeable = False
     return ComState(array)
+
+
+def _restored(
+    cls: type[PreviewController], z_c: float, dt: float, design: PreviewDesign
+) -> PreviewController:
+    """Return a pickled controller as it was."""
+    controller = cls.__new__(cls)
+    controller.z_c, controller.dt, controller.n_preview = z_c, dt, design.horizon
+    controller._prepare(design)
+    return controller

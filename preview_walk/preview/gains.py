@@ -23,277 +23,134 @@ and the stabilising solution P of its Riccati equation with diag(Q_e, Q_x) and R
 
     [G_I  G_x] = W G' P Phi,   W = (R + G' P G)^-1,   A_c = Phi - G [G_I  G_x],
     G_d(l) = W G' (A_c')^(l-1) P I_r,   hence G_d(1) = -G_I.
+
+Direct feedthrough, previewed disturbances, more outputs than inputs and the servo without integral
+action follow the same lines: docs/preview-control.md derives them all.
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from functools import cached_property
-
-import control
 import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.design import PreviewDesign
+from preview_walk.preview.horizon import check_horizon, samples, slow_mode, warn_if_short
+from preview_walk.preview.plant import Linear, Plant, read_plant
+from preview_walk.preview.problem import (
+    Weights,
+    error_augmented,
+    positional,
+    require_stabilisable,
+)
+from preview_walk.preview.receding import receding_horizon
+from preview_walk.preview.riccati import Law, solve_riccati
+from preview_walk.preview.unreachable import solve_reachable
+from preview_walk.preview.weights import weight_matrix
 from preview_walk.types import Array
-
-MIN_TIME_CONSTANTS = 2.0
-"""A preview horizon must cover this many time constants of the slowest mode of its gains."""
-
-_RANK_TOLERANCE, _RESIDUAL_TOLERANCE, _SHARE_TOLERANCE = 1e-10, 1e-8, 1e-8
-
-
-@dataclass(frozen=True, eq=False)
-class PreviewDesign:
-    """The result of `preview_gains`; all arrays are read-only.
-
-    Attributes:
-        system: The plant: n states, m inputs, p outputs.
-        Q_e: (p, p) weight of the tracking error e = y - r.
-        Q_x: (n, n) weight of the state increment dx.
-        R: (m, m) weight of the input increment du.
-        integral_gain: (m, p) G_I.
-        state_gain: (m, n) G_x.
-        preview_gain: (N, m, p) G_d; row l - 1 is for the reference l samples ahead.
-        riccati: (p + n, p + n) P of the error-augmented system.
-        closed_loop_matrix: (p + n, p + n) A_c of X = [e; dx]; all eigenvalues inside the circle.
-        residual: Largest entry of the Riccati equation's residual over the largest entry of P.
-        slow_mode: Largest modulus of a mode of A_c in the preview gains: they decay with it.
-
-    """
-
-    system: control.StateSpace
-    Q_e: Array
-    Q_x: Array
-    R: Array
-    integral_gain: Array
-    state_gain: Array
-    preview_gain: Array
-    riccati: Array
-    closed_loop_matrix: Array
-    residual: float
-    slow_mode: float
-
-    def __post_init__(self) -> None:
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                _read_only(value)
-
-    @property
-    def dt(self) -> float:
-        """Sampling time (s)."""
-        return float(self.system.dt)
-
-    @property
-    def horizon(self) -> int:
-        """N, the number of previewed samples."""
-        return int(self.preview_gain.shape[0])
-
-    @property
-    def neglected(self) -> float:
-        """slow_mode ** N, the share of the slow mode that lies past the horizon."""
-        return float(self.slow_mode**self.horizon)
-
-    @cached_property
-    def window_gain(self) -> Array:
-        """(N, m, p) F, the preview law in terms of the reference itself.
-
-        du(k) = -feedback [x(k); u(k-1)] + sum_{l=1..N} F(l) r(k+l), with F(l) = G_d(l+1) - G_d(l)
-        and F(N) = -G_d(N). They sum to G_I; r(k) drops out because G_d(1) = -G_I.
-        """
-        return _read_only(np.diff(self.preview_gain, axis=0, append=0.0))
-
-    @cached_property
-    def feedback(self) -> Array:
-        """(m, n + m) gain on [x(k); u(k-1)], which know all that e(k), dx(k) and r(k) would add.
-
-        G_x = M A for an M = W G' P [C; I], so G_x x(k-1) = M (x(k) - B u(k-1)): no x(k-1) has
-        to be remembered or, at the start of a run, invented.
-        """
-        a, b, c = self.system.A, self.system.B, self.system.C
-        lift = np.vstack([c, np.eye(len(a))])
-        weighted = (lift @ b).T @ self.riccati @ lift
-        m = np.linalg.solve(self.R + weighted @ b, weighted)
-        return _read_only(np.hstack([self.integral_gain @ c + m @ (a - np.eye(len(a))), m @ b]))
-
-    @cached_property
-    def closed_loop(self) -> control.StateSpace:
-        """The servo loop from the preview action w(k) = sum_l F(l) r(k+l) (m) to the output (p).
-
-        Its states are [x(k); u(k-1)]; when m = p its poles are the eigenvalues of A_c. A constant
-        w = G_I r leads to y = r.
-        """
-        a, b, c = self.system.A, self.system.B, self.system.C
-        n, m = b.shape
-        input_row = np.eye(m, n + m, n) - self.feedback
-        return control.StateSpace(
-            np.vstack([np.hstack([a, np.zeros((n, m))]) + b @ input_row, input_row]),
-            np.vstack([b, np.eye(m)]),
-            np.hstack([c, np.zeros((len(c), m))]),
-            np.zeros((len(c), m)),
-            self.dt,
-            states=self.system.state_labels + [f"{u}_previous" for u in self.system.input_labels],
-            inputs=[f"w[{i}]" for i in range(m)],
-            outputs=self.system.output_labels,
-            name="preview_loop",
-        )
 
 
 def preview_gains(
-    system: control.StateSpace, Q_e: ArrayLike, Q_x: ArrayLike, R: ArrayLike, N: int
+    system: Linear,
+    Q_e: ArrayLike,
+    Q_x: ArrayLike,
+    R: ArrayLike,
+    N: float,
+    *,
+    E: ArrayLike | None = None,
+    dt: float | None = None,
+    integral: bool = True,
+    final_cost: ArrayLike | None = None,
 ) -> PreviewDesign:
-    """Design the optimal preview servo of a discrete-time linear system.
+    """Design the optimal preview servo of a linear system.
 
     Args:
-        system: Plant with a sampling time in seconds and no direct feedthrough (D = 0).
-        Q_e: (p, p) weight of the tracking error, symmetric and positive semidefinite; a scalar
-            stands for that multiple of the identity, here and below.
+        system: Plant with n states, m inputs and p outputs: a `control.StateSpace` or
+            `control.TransferFunction`, (A, B, C, D) of a discrete-time plant, or (A, B, C, D, dt).
+        Q_e: (p, p) weight of the tracking error, symmetric and positive semidefinite; (p,) stands
+            for its diagonal and a scalar for that multiple of the identity, here and below.
         Q_x: (n, n) weight of the state increment, symmetric and positive semidefinite.
         R: (m, m) weight of the input increment, symmetric and positive definite.
-        N: Preview horizon in samples.
+        N: Preview horizon in samples; 0 is a servo without preview, `math.inf` one that sees all
+            that numbers can tell from nothing.
+        E: (n, q) matrix of disturbances that are previewed too; (n,) for one.
+        dt: Sampling time (s) at which a continuous-time plant is discretised.
+        integral: Whether the servo has integral action. Without, Q_x weights the state and R the
+            input, and the servo knows by the model alone what holds an output.
+        final_cost: Weight of X = [e; dx] N samples ahead, (p + n, p + n), in place of all that
+            comes after: the first step of the N-step optimum, taken anew at each sample.
 
     Returns:
         The gains and everything they were made from.
 
     Raises:
-        InvalidInput: If a shape or a weight cannot be, if no stabilising servo exists, or if the
-            horizon is shorter than `MIN_TIME_CONSTANTS` time constants of the slow mode.
+        InvalidInput: If a shape or a weight cannot be or no stabilising servo exists.
+
+    Warns:
+        ShortHorizonWarning: If the horizon is shorter than `horizon.MIN_TIME_CONSTANTS` time
+            constants of the slow mode of the gains.
 
     """
-    _check_system(system)
-    n, m, p = system.nstates, system.ninputs, system.noutputs
-    q_e, q_x, r = _weight("Q_e", Q_e, p), _weight("Q_x", Q_x, n), _weight("R", R, m, definite=True)
-    if isinstance(N, bool) or not isinstance(N, int | np.integer) or N < 1:
-        raise InvalidInput(f"expected the horizon N to be a whole number of samples >= 1, got {N}.")
-
-    a, b, c = system.A, system.B, system.C
-    phi = np.block([[np.eye(p), c @ a], [np.zeros((n, p)), a]])
-    g = np.vstack([c @ b, b])
-    q = np.block([[q_e, np.zeros((p, n))], [np.zeros((n, p)), q_x]])
-    _check_solvable(a, b, phi, g, q)
-
-    try:
-        riccati = np.asarray(control.dare(phi, g, q, r)[0], dtype=float)
-        riccati = (riccati + riccati.T) / 2.0
-        left = np.linalg.solve(r + g.T @ riccati @ g, g.T)
-        gain = left @ riccati @ phi
-    except (np.linalg.LinAlgError, control.ControlArgument) as error:
-        raise InvalidInput(f"found no solution of the Riccati equation: {error}.") from error
-    closed = phi - g @ gain
-    defect = phi.T @ riccati @ closed - riccati + q
-    residual = float(np.abs(defect).max() / np.abs(riccati).max())
-    radius = float(np.abs(np.linalg.eigvals(closed)).max())
-    if not (residual < _RESIDUAL_TOLERANCE and radius < 1.0):
-        raise InvalidInput(
-            "expected a Riccati equation with a stabilising solution, got one with a relative "
-            f"residual of {residual:.1e} and a closed loop of spectral radius {radius:.9f}."
-        )
-
-    column = -riccati[:, :p]
-    slow = _slow_mode(closed, left, column)
-    _check_horizon(N, slow, system.dt)
-    preview = np.empty((N, m, p))
-    for row in preview:
-        row[:] = left @ column
-        column = closed.T @ column
-    integral, state = gain[:, :p].copy(), gain[:, p:].copy()
-    return PreviewDesign(
-        system, q_e, q_x, r, integral, state, preview, riccati, closed, residual, slow
+    plant = read_plant(system, dt, E)
+    n, m, p = len(plant.A), plant.B.shape[1], len(plant.C)
+    weights = Weights(
+        weight_matrix("Q_e", Q_e, p),
+        weight_matrix("Q_x", Q_x, n),
+        weight_matrix("R", R, m, definite=True),
     )
+    horizon = check_horizon(N)
+    require_stabilisable(plant)
+    if final_cost is not None:
+        if not integral:
+            raise InvalidInput(
+                "expected final_cost for a servo with integral action only, got integral=False.",
+                argument="final_cost",
+            )
+        final = weight_matrix("final_cost", final_cost, p + n)
+        return receding_horizon(plant, weights, final, horizon)
+    if integral:
+        law = solve_reachable(error_augmented(plant, weights), p)
+        columns = -law.riccati[:, :p], law.riccati @ np.vstack([plant.C @ plant.E, plant.E])
+        own = law.gain[:, :p].copy()
+    else:
+        law = solve_riccati(positional(plant, weights))
+        columns = _held(plant, weights, law)
+        own = _reference_gain(plant, weights, law, columns[0])
+    slow = slow_mode(law.closed, law.left, np.hstack(columns))
+    count = samples(horizon, slow, len(law.closed))
+    warn_if_short(count, slow, float(plant.dt), stacklevel=2)
+    return PreviewDesign(
+        plant, weights.Q_e, weights.Q_x, weights.R,
+        own, law.gain[:, p:].copy() if integral else law.gain,
+        _decaying(law, columns[0], count), law.riccati, law.closed, law.residual, slow,
+        _decaying(law, columns[1], count), integral,
+    )  # fmt: skip
 
 
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array
+def _decaying(law: Law, column: Array, count: int) -> Array:
+    """Return the gains W G' (A_c')^l column for l = 0 to count - 1."""
+    gains = np.empty((count, len(law.left), column.shape[1]))
+    for row in gains:
+        row[:] = law.left @ column
+        column = law.closed.T @ column
+    return gains
 
 
-def _check_system(system: control.StateSpace) -> None:
-    if not isinstance(system, control.StateSpace):
-        raise InvalidInput(f"expected a control.StateSpace, got a {type(system).__name__}.")
-    if isinstance(system.dt, bool) or system.dt is None or not system.dt > 0.0:
-        raise InvalidInput(
-            "expected a discrete-time system with a sampling time in seconds, got "
-            f"dt = {system.dt}; control.c2d(system, dt) makes one."
-        )
-    if not all(np.isfinite(part).all() for part in (system.A, system.B, system.C, system.D)):
-        raise InvalidInput("expected finite system matrices, got NaN or infinity in A, B, C or D.")
-    if np.any(system.D):
-        raise InvalidInput("expected a system with D = 0, got a direct feedthrough.")
+def _held(plant: Plant, weights: Weights, law: Law) -> tuple[Array, Array]:
+    """Return what steps of reference and disturbance, held for ever, add to the costate of x.
+
+    The costate s(k) = A_c' s(k+1) + C_c' Q_e r(k) - A_c' P E w(k), C_c = C - D K, of a step held is
+    a geometric sum.
+    """
+    ahead = np.eye(len(law.closed)) - law.closed.T
+    seen = (plant.C - plant.D @ law.gain).T @ weights.Q_e
+    return -np.linalg.solve(ahead, seen), np.linalg.solve(ahead, law.riccati @ plant.E)
 
 
-def _weight(name: str, value: ArrayLike, size: int, definite: bool = False) -> Array:
-    weight = np.array(value, dtype=float)
-    if weight.ndim == 0:
-        weight = weight * np.eye(size)
-    if weight.shape != (size, size):
-        raise InvalidInput(
-            f"expected {name} to be a scalar or of shape ({size}, {size}), got shape "
-            f"{weight.shape}."
-        )
-    if not np.isfinite(weight).all():
-        raise InvalidInput(f"expected {name} to be finite, got NaN or infinity.")
-    largest = np.abs(weight).max()
-    if np.abs(weight - weight.T).max() > 1e-12 * largest:
-        raise InvalidInput(f"expected {name} to be symmetric, got an asymmetric matrix.")
-    smallest = float(np.linalg.eigvalsh(weight)[0])
-    if smallest < -1e-12 * largest or (definite and smallest <= 0.0):
-        kind = "definite" if definite else "semidefinite"
-        raise InvalidInput(
-            f"expected {name} to be positive {kind}, got a smallest eigenvalue of {smallest:.3g}."
-        )
-    return weight
-
-
-def _lost_mode(a: Array, b: Array) -> str | None:
-    """Return a mode on or outside the unit circle that b does not reach (Hautus), or None."""
-    smallest = _RANK_TOLERANCE * max(1.0, float(np.abs(a).max()))
-    b = b / max(float(np.abs(b).max()), np.finfo(float).tiny)
-    for mode in np.linalg.eigvals(a):
-        pencil = np.hstack([a - mode * np.eye(len(a)), b])
-        if abs(mode) >= 1.0 - 1e-9 and np.linalg.svd(pencil)[1][-1] < smallest:
-            return f"z = {mode.real:.6g}" if mode.imag == 0.0 else f"z = {mode:.6g}"
-    return None
-
-
-def _check_solvable(a: Array, b: Array, phi: Array, g: Array, q: Array) -> None:
-    mode = _lost_mode(a, b)
-    if mode is not None:
-        raise InvalidInput(
-            f"expected a stabilisable system, got a mode at {mode} that the input does not reach."
-        )
-    if _lost_mode(phi, g) is not None:
-        raise InvalidInput(
-            "expected outputs that can all be held at any constant value, got "
-            f"{len(phi) - len(a)} outputs and {b.shape[1]} inputs with [A - I, B; C, 0] not of "
-            "full row rank: a zero at z = 1, dependent outputs or too few inputs."
-        )
-    mode = _lost_mode(phi.T, q)
-    if mode is not None:
-        raise InvalidInput(
-            "expected weights Q_e and Q_x that make the system detectable, got a mode at "
-            f"{mode} that they do not see."
-        )
-
-
-def _slow_mode(closed: Array, left: Array, column: Array) -> float:
-    """Return the largest modulus among the modes that the gains left (A_c')^l column contain."""
-    values, vectors = np.linalg.eig(closed.T)
-    try:
-        shares = np.abs(np.linalg.solve(vectors, column)).max(axis=1)
-    except np.linalg.LinAlgError:  # defective: count every mode
-        return float(np.abs(values).max())
-    shares *= np.abs(left @ vectors).max(axis=0)
-    present = shares > _SHARE_TOLERANCE * np.abs(left @ column).max()
-    return float(np.abs(values[present]).max(initial=0.0))
-
-
-def _check_horizon(horizon: int, slow: float, dt: float) -> None:
-    constant = -dt / math.log(slow) if slow > 0.0 else 0.0
-    shortest = math.ceil(MIN_TIME_CONSTANTS * constant / dt)
-    if horizon < shortest:
-        raise InvalidInput(
-            f"expected a preview horizon of at least {shortest} samples ({shortest * dt:.4g} s), "
-            f"{MIN_TIME_CONSTANTS:g} time constants of the closed loop's slow mode "
-            f"({constant:.3g} s), got {horizon} samples ({horizon * dt:.4g} s)."
-        )
+def _reference_gain(plant: Plant, weights: Weights, law: Law, column: Array) -> Array:
+    """Return G_I without integral action: the input that a constant reference asks for."""
+    gain = -law.left @ column
+    if np.any(plant.D):
+        inner = weights.R + plant.D.T @ weights.Q_e @ plant.D + plant.B.T @ law.riccati @ plant.B
+        gain = gain + np.linalg.solve(inner, plant.D.T @ weights.Q_e)
+    return gain

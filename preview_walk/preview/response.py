@@ -1,10 +1,7 @@
 """What a preview servo does to a whole reference, in time linear in its length.
 
-The preview action w(k) = sum_l F(l) r(k+l) is a correlation (FFT, overlap-save). The loop
-z(k+1) = A z(k) + B w(k) then runs in blocks of samples: inside a block its response is one
-matrix product, from block to block it is a recursion of the same form. No eigenvectors are
-needed, which nearly coincide in the cart-table's loop (a double pole at exp(-omega dt) as the
-jerk gets cheap).
+The preview action a(k) = sum_l F(l) r(k+l) is a correlation (FFT, overlap-save); the loop
+z(k+1) = A z(k) + B a(k) then runs in blocks of samples (`recursion`).
 """
 
 from __future__ import annotations
@@ -18,10 +15,10 @@ from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.gains import PreviewDesign
+from preview_walk.preview.checks import finite_vector, sequence, shown
+from preview_walk.preview.design import PreviewDesign, loop_matrices
+from preview_walk.preview.recursion import Recursion
 from preview_walk.types import Array
-
-_BLOCK = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +28,7 @@ class Tracking:
     Attributes:
         x: (M, n) state; x[0] is the start.
         u: (M, m) input, held from sample k to sample k + 1.
-        y: (M, p) output C x.
+        y: (M, p) output C x + D u.
         error: (M, p) y - r.
 
     """
@@ -41,49 +38,33 @@ class Tracking:
     y: Array
     error: Array
 
+    def __repr__(self) -> str:
+        largest = ", ".join(f"{e:.3g}" for e in np.abs(self.error).max(axis=0))
+        return f"Tracking({len(self.x)} samples, largest |error| {largest})"
 
-class Recursion:
-    """z(k+1) = A z(k) + B w(k) over long sequences, a block of samples per matrix product."""
 
-    def __init__(self, a: Array, b: Array, levels: int = 2) -> None:
-        """Prepare A (n, n) and B (n, m); each level shortens the loop in Python by `_BLOCK`."""
-        n, m = b.shape
-        self._a, self._b = a, b
-        self._inner: Recursion | None = None
-        if levels == 0:
-            return
-        powers = [np.eye(n)]
-        for _ in range(_BLOCK):
-            powers.append(a @ powers[-1])
-        impulse = [power @ b for power in powers]
-        response = np.zeros((_BLOCK, n, _BLOCK, m))
-        for row in range(_BLOCK):
-            for column in range(row):
-                response[row, :, column] = impulse[row - 1 - column]
-        self._from_start = np.concatenate(powers[:-1]).T.copy()
-        self._from_input = response.reshape(_BLOCK * n, _BLOCK * m).T.copy()
-        self._to_next = np.concatenate([block.T for block in impulse[-2::-1]])
-        self._inner = Recursion(powers[-1], np.eye(n), levels - 1)
+class Correlation:
+    """sum_l G(l) s(k + l) of a signal held at its last value, for gains G(0) to G(N - 1)."""
 
-    def run(self, w: Array, start: Array) -> Array:
-        """Return z (batch, M, n) for w (batch, M, m); z[:, 0] is start (batch, n)."""
-        batch, length, inputs = w.shape
-        if self._inner is None:
-            z = np.empty((batch, length, start.shape[1]))
-            source = w @ self._b.T
-            for k in range(length):
-                z[:, k] = start
-                start = start @ self._a.T + source[:, k]
-            return z
-        blocks = -(-length // _BLOCK)
-        padded = np.zeros((batch, blocks * _BLOCK, inputs))
-        padded[:, :length] = w
-        rows = padded.reshape(batch, blocks, _BLOCK * inputs)
-        starts = self._inner.run(rows @ self._to_next, start)
-        z = rows @ self._from_input
-        z += starts @ self._from_start
-        sequence: Array = z.reshape(batch, blocks * _BLOCK, -1)[:, :length]
-        return sequence
+    def __init__(self, gains: Array) -> None:
+        """Transform the gains (N, m, c), once."""
+        self._count = len(gains)
+        # About eight horizons to a block is where FFT work per sample is smallest.
+        self._block = int(next_fast_len(max(8 * self._count, 512), real=True))
+        self._spectrum = np.conj(rfft(np.moveaxis(gains, 0, -1), self._block, axis=-1))
+
+    def run(self, signal: Array, ahead: int = 0) -> Array:
+        """Return (batch, m, M) for a signal (batch, c, M) that is read from k + ahead on."""
+        batch, rows, length = signal.shape
+        valid = self._block - self._count + 1
+        blocks = -(-length // valid)
+        padded = np.empty((batch, rows, (blocks - 1) * valid + self._block))
+        padded[..., : length - ahead] = signal[..., ahead:]
+        padded[..., length - ahead :] = signal[..., -1:]
+        windows = sliding_window_view(padded, self._block, axis=-1)[:, :, ::valid]
+        spectrum = np.einsum("mpf,bpcf->bmcf", self._spectrum, rfft(windows, axis=-1))
+        action = irfft(spectrum, self._block, axis=-1)[..., :valid]
+        return np.asarray(action.reshape(batch, -1, blocks * valid)[..., :length])
 
 
 class PreviewFilter:
@@ -91,33 +72,50 @@ class PreviewFilter:
 
     def __init__(self, design: PreviewDesign) -> None:
         """Transform the gains of a design and prepare its loop, once."""
-        self._horizon = design.horizon
-        # About eight horizons to a block is where FFT work per sample is smallest.
-        self._block = int(next_fast_len(max(8 * self._horizon, 512), real=True))
-        self._gain_spectrum = np.conj(
-            rfft(np.moveaxis(design.window_gain, 0, -1), self._block, axis=-1)
-        )
-        self._recursion = Recursion(design.closed_loop.A, design.closed_loop.B)
+        self._design = design
+        seen = design.horizon > 0
+        self._reference = Correlation(design.window_gain) if seen else None
+        self._present = design.present_gain if np.any(design.present_gain) else None
+        known = seen and design.plant.E.shape[1] > 0
+        self._disturbance = Correlation(design.disturbance_window_gain) if known else None
+        a, b = loop_matrices(design)[:2]
+        e = np.zeros((len(a), design.plant.E.shape[1]))
+        e[: len(design.plant.A)] = design.plant.E
+        self._recursion = Recursion(a, np.hstack([b, e]))
 
-    def preview_action(self, reference: Array) -> Array:
-        """Return w (batch, m, M) for a reference (batch, p, M) held at its last value."""
-        batch, outputs, length = reference.shape
-        valid = self._block - self._horizon + 1
-        blocks = -(-length // valid)
-        padded = np.empty((batch, outputs, (blocks - 1) * valid + self._block))
-        padded[..., : length - 1] = reference[..., 1:]
-        padded[..., length - 1 :] = reference[..., -1:]
-        windows = sliding_window_view(padded, self._block, axis=-1)[:, :, ::valid]
-        spectrum = np.einsum("mpf,bpcf->bmcf", self._gain_spectrum, rfft(windows, axis=-1))
-        action = irfft(spectrum, self._block, axis=-1)[..., :valid]
-        return np.asarray(action.reshape(batch, -1, blocks * valid)[..., :length])
+    def preview_action(self, reference: Array, disturbance: Array | None = None) -> Array:
+        """Return the action (batch, m, M) for a reference (batch, p, M) held at its last value.
 
-    def run(self, reference: Array, start: Array) -> Array:
-        """Return the loop's states [x(k); u(k-1)], (batch, M, n + m).
-
-        reference is (batch, p, M), start (batch, n + m) the state at sample 0.
+        A disturbance (batch, q, M) that no window shows (N = 0) acts through the drift it left in
+        the state: x(k) - A x(k-1) - B u(k-1) = E w(k-1).
         """
-        return self._recursion.run(np.swapaxes(self.preview_action(reference), 1, 2), start)
+        design = self._design
+        if self._reference is not None:
+            action = self._reference.run(reference, 1)
+            if self._present is not None:
+                action = action + design.present_gain @ reference
+        else:
+            action = design.present_gain @ reference
+        if disturbance is not None and self._disturbance is not None:
+            action = action + self._disturbance.run(disturbance)
+        elif disturbance is not None:
+            drift = design.drift_gain @ design.plant.E @ disturbance
+            action = action - np.pad(drift[..., :-1], ((0, 0), (0, 0), (1, 0)))
+        return np.asarray(action)
+
+    def run(
+        self, reference: Array, start: Array, disturbance: Array | None = None
+    ) -> tuple[Array, Array]:
+        """Return the loop's states (batch, M, z) and the preview action (batch, M, m).
+
+        reference is (batch, p, M), disturbance (batch, q, M), start (batch, z) the state at sample
+        0; states are [x(k); u(k-1)], or x(k) without integral action.
+        """
+        action = np.swapaxes(self.preview_action(reference, disturbance), 1, 2)
+        inputs = action
+        if disturbance is not None:
+            inputs = np.concatenate([action, np.swapaxes(disturbance, 1, 2)], axis=2)
+        return self._recursion.run(inputs, start), action
 
 
 def track(
@@ -125,6 +123,8 @@ def track(
     reference: ArrayLike,
     x0: ArrayLike | None = None,
     u_previous: ArrayLike | None = None,
+    *,
+    disturbance: ArrayLike | None = None,
 ) -> Tracking:
     """Run a preview servo over a whole reference, held at its last value past its end.
 
@@ -133,79 +133,121 @@ def track(
         reference: (M, p), or (M,) when p = 1.
         x0: (n,) state at sample 0; zero when None.
         u_previous: (m,) input held up to sample 0; zero when None.
+        disturbance: (M, q), or (M,) when q = 1, that acts on the plant and is previewed like the
+            reference; zero when None. It is zero before sample 0.
 
     Raises:
         InvalidInput: If a shape is wrong or a value not finite.
 
     """
-    system = design.system
-    n, m = system.nstates, system.ninputs
-    r = _reference(reference, system.noutputs)
-    start = _vector("x0", x0, np.zeros(n))
-    before = _vector("u_previous", u_previous, np.zeros(m))
-    servo = PreviewFilter(design)
-    state = servo.run(r.T[None], np.append(start, before)[None])[0]
-    action = servo.preview_action(r.T[None])[0].T
-    x, u = state[:, :n], state[:, n:] - state @ design.feedback.T + action
-    y = x @ system.C.T
+    plant = design.plant
+    n, m = plant.B.shape
+    r = sequence("reference", reference, len(plant.C))
+    start = finite_vector("x0", x0, np.zeros(n))
+    before = finite_vector("u_previous", u_previous, np.zeros(m))
+    w = read_disturbance(design, disturbance, len(r))
+    if design.integral:
+        start = np.append(start, before)
+    batch = None if w is None else w.T[None]
+    states, actions = PreviewFilter(design).run(r.T[None], start[None], batch)
+    state, action = states[0], actions[0]
+    x, u = state[:, :n], state[:, n:] if design.integral else 0.0
+    u = u - state @ design.feedback.T + action
+    y = x @ plant.C.T
+    if np.any(plant.D):
+        y = y + u @ plant.D.T
     return Tracking(x=x, u=u, y=y, error=y - r)
 
 
-def preview_effect(design: PreviewDesign, reference: ArrayLike, horizons: Iterable[int]) -> Array:
+def preview_effect(
+    design: PreviewDesign,
+    reference: ArrayLike,
+    horizons: Iterable[int],
+    *,
+    disturbance: ArrayLike | None = None,
+) -> Array:
     """Return the largest absolute tracking error for each preview horizon, (H, p).
 
-    The plant starts at rest with its output on the first reference sample. A horizon that
-    `preview_gains` would refuse is allowed here: this is the curve that shows why.
+    The plant starts at rest with its output on the first reference sample. Short horizons bring
+    no warning here: this is the curve that shows what they cost.
 
     Args:
-        design: A servo with the longest horizon of interest.
+        design: A servo with the longest horizon of interest and no final cost.
         reference: (M, p), or (M,) when p = 1.
-        horizons: Numbers of samples, 1 to the design's own.
+        horizons: Numbers of samples, 0 to the design's own.
+        disturbance: (M, q), or (M,) when q = 1; zero when None.
 
     Raises:
         InvalidInput: If a horizon is out of range, a shape wrong or a value not finite.
 
     """
-    r = _reference(reference, design.system.noutputs)
-    x0, u0 = _rest(design, r[0])
+    r = sequence("reference", reference, len(design.plant.C))
+    x0, u0 = rest(design, r[0])
+    try:
+        lengths = list(horizons)
+    except TypeError:
+        raise InvalidInput(
+            f"expected horizons to be several numbers of samples, got {shown(horizons)}.",
+            argument="horizons",
+        ) from None
     errors = []
-    for horizon in horizons:
-        if not 1 <= horizon <= design.horizon:
-            raise InvalidInput(
-                f"expected horizons of 1 to {design.horizon} samples, got {horizon}."
-            )
-        shorter = replace(design, preview_gain=design.preview_gain[:horizon])
-        errors.append(np.abs(track(shorter, r, x0, u0).error).max(axis=0))
+    for horizon in lengths:
+        shorter = shortened(design, horizon)
+        errors.append(np.abs(track(shorter, r, x0, u0, disturbance=disturbance).error).max(axis=0))
     return np.array(errors).reshape(-1, r.shape[1])
 
 
-def _rest(design: PreviewDesign, output: Array) -> tuple[Array, Array]:
-    """Return the least x and u with x = A x + B u and C x = output."""
-    a, b, c = design.system.A, design.system.B, design.system.C
-    n, m = b.shape
-    equations = np.block([[a - np.eye(n), b], [c, np.zeros((len(c), m))]])
-    rest = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
-    return rest[:n], rest[n:]
+def shortened(design: PreviewDesign, horizon: int) -> PreviewDesign:
+    """Return the same servo with a shorter sight; its gains are the first of the longer one.
 
+    Raises:
+        InvalidInput: If the horizon is not 0 to the design's own samples.
 
-def _reference(value: ArrayLike, outputs: int) -> Array:
-    reference = np.asarray(value, dtype=float)
-    if outputs == 1 and reference.ndim == 1:
-        reference = reference[:, None]
-    if reference.ndim != 2 or reference.shape[1] != outputs or len(reference) < 1:
+    """
+    whole = isinstance(horizon, int | np.integer) and not isinstance(horizon, bool)
+    if not (whole and 0 <= horizon <= design.horizon):
         raise InvalidInput(
-            f"expected a reference of shape (M, {outputs}) with M >= 1, got shape "
-            f"{np.shape(value)}."
+            f"expected horizons of 0 to {design.horizon} samples, got {shown(horizon)}.",
+            argument="horizons",
         )
-    if not np.isfinite(reference).all():
-        raise InvalidInput("expected a finite reference, got NaN or infinity.")
-    return reference
+    return replace(
+        design,
+        preview_gain=design.preview_gain[:horizon],
+        disturbance_gain=design.disturbance_gain[:horizon],
+    )
 
 
-def _vector(name: str, value: ArrayLike | None, default: Array) -> Array:
-    if value is None:
-        return default
-    vector = np.atleast_1d(np.asarray(value, dtype=float))
-    if vector.shape != default.shape or not np.isfinite(vector).all():
-        raise InvalidInput(f"expected {name} to be {len(default)} finite numbers, got {value!r}.")
-    return vector
+def rest(design: PreviewDesign, output: Array) -> tuple[Array, Array]:
+    """Return the least x and u with x = A x + B u and C x + D u nearest to an output (p,)."""
+    a, b, c, d = design.plant.A, design.plant.B, design.plant.C, design.plant.D
+    n = len(a)
+    equations = np.block([[a - np.eye(n), b], [c, d]])
+    found = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
+    return found[:n], found[n:]
+
+
+def read_disturbance(
+    design: PreviewDesign, disturbance: ArrayLike | None, length: int
+) -> Array | None:
+    """Return a disturbance as (length, q): zero when not given, None where the plant has none.
+
+    Raises:
+        InvalidInput: If its shape is wrong or a value not finite.
+
+    """
+    columns = design.plant.E.shape[1]
+    if columns == 0:
+        if disturbance is not None:
+            raise InvalidInput(
+                "expected no disturbance for a design without E, got one.", argument="disturbance"
+            )
+        return None
+    if disturbance is None:
+        return np.zeros((length, columns))
+    w = sequence("disturbance", disturbance, columns)
+    if len(w) != length:
+        raise InvalidInput(
+            f"expected a disturbance of the reference's {length} samples, got {len(w)}.",
+            argument="disturbance",
+        )
+    return w

@@ -1,6 +1,13 @@
 """The preview controller: one law, whole or tick by tick, for any start, anywhere in the world."""
 
+import copy
+import pickle
 import re
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +17,7 @@ from hypothesis import strategies as st
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import natural_frequency
 from preview_walk.preview.controller import ComState, PreviewController
+from preview_walk.preview.horizon import ShortHorizonWarning
 from preview_walk.types import Array
 
 LAB = PreviewController()
@@ -198,15 +206,18 @@ def test_a_cheap_jerk_approaches_the_exact_inverse_of_the_pendulum() -> None:
     assert gaps[1] < 2e-6
 
 
-def test_horizons_shorter_than_two_time_constants_are_refused() -> None:
+def test_horizons_shorter_than_two_time_constants_are_warned_of() -> None:
     """What the lab's 1 s neglects is 3 % of the slow mode; 0.2 s would neglect half of it."""
     assert LAB.design.neglected == pytest.approx(np.exp(-natural_frequency(0.8)), rel=1e-3)
-    with refused(
-        "expected a preview horizon of at least 58 samples (0.58 s), 2 time constants of the "
-        "closed loop's slow mode (0.286 s), got 20 samples (0.2 s)."
-    ):
+    sentence = (
+        "a preview horizon of 20 samples (0.2 s) is shorter than 58 samples (0.58 s), 2 time "
+        "constants of the closed loop's slow mode (0.286 s)."
+    )
+    with pytest.warns(ShortHorizonWarning, match=f"^{re.escape(sentence)}$"):
         PreviewController(preview_time=0.2)
-    assert PreviewController(preview_time=0.58).n_preview == 58
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert PreviewController(preview_time=0.58).n_preview == 58
 
 
 @given(tau=st.floats(0.0, 0.005))
@@ -295,3 +306,42 @@ def test_step_refusals() -> None:
         LAB.interpolate(state, following, 0.02)
     with refused("expected tau to be 0 to 0.01 s, got nan."):
         LAB.interpolate(state, following, float("nan"))
+
+
+@pytest.mark.parametrize("copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
+def test_copies_are_the_same_controller(copied: Callable[[object], PreviewController]) -> None:
+    again = copied(KAJITA)
+    reference = walk(0.005, 4.0)
+    np.testing.assert_array_equal(again.trajectory(reference).com, KAJITA.trajectory(reference).com)
+    state = copied(KAJITA.initial_state((0.1, 0.2)))
+    assert not state.array.flags.writeable
+    assert not again.window_offsets.flags.writeable
+    assert not again.design.riccati.flags.writeable
+    assert repr(again) == "PreviewController(z_c=0.814, dt=0.005, n_preview=320)"
+    assert repr(state) == "ComState(com [0.1, 0.2] m, velocity [0, 0] m/s, zmp [0.1, 0.2] m)"
+
+
+def test_importing_the_controller_does_not_load_control() -> None:
+    """It costs more than half a second, and a plan that is only read needs no design."""
+    code = "import sys, preview_walk.preview.controller; print('control' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "argument"),
+    [
+        ({"z_c": "high"}, "z_c"),
+        ({"dt": None}, "dt"),
+        ({"dt": 1e300}, "dt"),
+        ({"preview_time": 1e300}, "preview_time"),
+        ({"q_e": -1.0}, "q_e"),
+        ({"q_e": "much"}, "q_e"),
+        ({"q_x": np.ones((2, 2))}, "q_x"),
+        ({"r": 0.0}, "r"),
+    ],
+)
+def test_the_argument_at_fault_is_named(arguments: dict[str, Any], argument: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        PreviewController(**arguments)
+    assert caught.value.argument == argument

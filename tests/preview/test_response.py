@@ -10,7 +10,8 @@ from scipy.sparse.linalg import spsolve
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import cart_table
-from preview_walk.preview.gains import PreviewDesign, preview_gains
+from preview_walk.preview.design import PreviewDesign
+from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.response import Recursion, preview_effect, track
 from preview_walk.types import Array
 
@@ -175,5 +176,5 @@ def test_tracking_refusals() -> None:
         track(design, [0.0, np.nan])
     with refused("expected x0 to be 3 finite numbers, got [0, 1]."):
         track(design, np.zeros(5), [0, 1])
-    with refused("expected horizons of 1 to 320 samples, got 321."):
+    with refused("expected horizons of 0 to 320 samples, got 321."):
         preview_effect(design, np.zeros(5), [321])

@@ -1,0 +1,92 @@
+"""What every public call of this room asks of its numbers, and values that cannot be changed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from preview_walk.errors import InvalidInput
+from preview_walk.types import Array
+
+
+class Value:
+    """A frozen dataclass whose arrays are read-only, also after pickling and deep-copying."""
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        """Pickle the fields alone: what is derived from them is derived again."""
+        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
+        return type(self), tuple(getattr(self, name) for name in names)
+
+
+def read_only(array: Array) -> Array:
+    """Make an array read-only and return it."""
+    array.flags.writeable = False
+    return array
+
+
+def real_array(name: str, value: object, allowed: str = "real numbers") -> Array:
+    """Return a fresh float array of any shape, finite or not."""
+    try:
+        raw = np.asarray(value)
+        if raw.dtype.kind not in "biuf":
+            raise TypeError
+        return np.array(raw, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidInput(
+            f"expected {name} to be {allowed}, got {shown(value)}.", argument=name
+        ) from None
+
+
+def finite_vector(name: str, value: ArrayLike | None, default: Array) -> Array:
+    """Return (len(default),) finite numbers; the default where the value is None."""
+    if value is None:
+        return default
+    allowed = f"{len(default)} finite numbers"
+    vector = np.atleast_1d(real_array(name, value, allowed))
+    if vector.shape != default.shape or not np.isfinite(vector).all():
+        raise InvalidInput(f"expected {name} to be {allowed}, got {shown(value)}.", argument=name)
+    return vector
+
+
+def sequence(name: str, value: object, columns: int) -> Array:
+    """Return a finite sequence of shape (M, columns), M >= 1; (M,) is taken where columns = 1."""
+    rows = real_array(name, value)
+    if columns == 1 and rows.ndim == 1:
+        rows = rows[:, None]
+    article = "an" if name[0] in "aeiou" else "a"
+    if rows.ndim != 2 or rows.shape[1] != columns or len(rows) < 1:
+        raise InvalidInput(
+            f"expected {article} {name} of shape (M, {columns}) with M >= 1, got shape "
+            f"{np.asarray(value).shape}.",
+            argument=name,
+        )
+    if not np.isfinite(rows).all():
+        raise InvalidInput(f"expected a finite {name}, got NaN or infinity.", argument=name)
+    return rows
+
+
+def require_positive(name: str, value: float, unit: str) -> None:
+    """Refuse what is not a positive, finite number."""
+    try:
+        valid = math.isfinite(value) and value > 0.0
+    except (TypeError, ValueError, OverflowError):
+        valid = False
+    if not valid:
+        raise InvalidInput(
+            f"expected {name} to be a positive number of {unit}, got {shown(value)}.",
+            argument=name,
+        )
+
+
+def shown(value: object) -> str:
+    """Return a value as a sentence can carry it."""
+    text = repr(value).replace("\n", " ")
+    return text if len(text) <= 80 else f"{text[:77]}..."
