@@ -16,7 +16,6 @@ import numpy as np
 
 from preview_walk import FootstepPlanner, Record, Walk, load_robot
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.walk import FRICTION
 from preview_walk.simulation.world import World
 
 HZ = 1000
@@ -33,8 +32,8 @@ def with_controller(robot: Robot, steps: int) -> tuple[Record, float]:
 
 def bare(robot: Robot, record: Record) -> float:
     """Return the processor time (s) of the same motion by MuJoCo alone, from recorded torques."""
-    world = World(robot, robot.mj, HZ, FRICTION)
-    world.place(record.q[0])
+    world = World(robot, physics_hz=HZ)
+    world.place(record.q[0], 0.0)
     start = thread_time()
     for torques in record.tau:
         world.step(torques, 1)

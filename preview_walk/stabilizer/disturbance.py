@@ -12,7 +12,7 @@ import numpy as np
 
 from preview_walk.types import Array
 
-SMOOTHING_TIME = 0.006
+SMOOTHING_TIME = 0.0072
 """Time constant (s) of the estimate's first-order lag: every touch of a foot disturbs it."""
 
 
@@ -46,5 +46,5 @@ def observe(last: Disturbance, t: float, dcm: Array, zmp: Array, omega: float) -
     elapsed = t - last.time
     explained = omega * (0.5 * (dcm + last.dcm) - zmp)
     now = (dcm - last.dcm) / elapsed - explained
-    rate = last.rate + (now - last.rate) / (1.0 + SMOOTHING_TIME / 0.005)
+    rate = last.rate + (now - last.rate) / (1.0 + SMOOTHING_TIME / elapsed)
     return Disturbance(rate, t, dcm)

@@ -159,7 +159,7 @@ def test_an_equal_plan_changes_nothing(plan: FootstepPlan) -> None:
     pattern, com = pattern_of(plan), []
     for k, t in enumerate(times_of(plan)):
         if k % 411 == 100:
-            pattern.plan = FootstepPlan(list(plan), plan.weight_shift)
+            pattern.follow(FootstepPlan(list(plan), plan.weight_shift))
         com.append(pattern.at(t).com)
     assert np.array(com) == pytest.approx(whole.com, abs=1e-9)
 
@@ -172,7 +172,7 @@ def test_another_plan_bends_the_motion_without_a_jump() -> None:
     pattern, samples = pattern_of(plan), []
     for t in times:
         if pattern.plan is plan and t >= change:
-            pattern.plan = plan.replace_after(t, [])
+            pattern.follow(plan.replace_after(t, []))
         samples.append(pattern.at(t))
     com = np.array([s.com for s in samples])
     velocity = np.array([s.velocity for s in samples])

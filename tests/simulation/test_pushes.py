@@ -26,10 +26,10 @@ def momenta(robot: Robot, pushes: list[Push], seconds: float, hz: int = HZ) -> t
 
     By Pinocchio, about the CoM; the joints are held by nothing.
     """
-    world = World(robot, robot.mj, hz, 0.8, pushes)
+    world = World(robot, physics_hz=hz, pushes=pushes)
     world.model.opt.gravity[:] = 0.0
     world.model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
-    world.place(np.array(robot.posture))
+    world.place(np.array(robot.posture), 0.0)
     world.step(np.zeros(robot.pin.nv - 6), round(seconds * hz))
     world.sense()
     data = robot.pin.createData()
@@ -58,8 +58,8 @@ def test_two_at_once_add_up_and_none_is_left_behind(talos: Robot) -> None:
 def test_a_push_beside_the_centre_turns_the_robot(talos: Robot) -> None:
     """The moment is lever times force, whatever body is pushed."""
     body, point = "arm_left_7_link", (0.02, 0.01, -0.05)
-    world = World(talos, talos.mj, HZ, 0.8)
-    world.place(np.array(talos.posture))
+    world = World(talos, physics_hz=HZ)
+    world.place(np.array(talos.posture), 0.0)
     data = world.data
     at = data.body(body).xpos + data.body(body).xmat.reshape(3, 3) @ point
     lever = at - data.subtree_com[0]

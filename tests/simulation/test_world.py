@@ -10,7 +10,8 @@ import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.world import World, steps_per_tick
+from preview_walk.simulation.plant import steps_per_tick
+from preview_walk.simulation.world import World
 from preview_walk.types import FEET, Array
 
 HZ = 1000
@@ -18,10 +19,10 @@ HZ = 1000
 
 def world_of(robot: Robot, lifted: float = 0.0, friction: float = 0.8) -> World:
     """Return a world with the robot in its posture, above the floor by `lifted` (m)."""
-    world = World(robot, robot.mj, HZ, friction)
+    world = World(robot, physics_hz=HZ, friction=friction)
     q = np.array(robot.posture)
     q[2] += lifted
-    world.place(q)
+    world.place(q, 0.0)
     world.sense()
     return world
 
@@ -33,9 +34,9 @@ def com_of(robot: Robot, world: World) -> tuple[Array, Array]:
 
 
 def test_places_the_robot_as_told(talos: Robot) -> None:
-    world = World(talos, talos.mj, HZ, 0.8)
+    world = World(talos, physics_hz=HZ)
     q = pin.randomConfiguration(talos.pin, -np.ones(talos.pin.nq), np.ones(talos.pin.nq))
-    world.place(q)
+    world.place(q, 0.0)
     world.sense()
     assert world.q == pytest.approx(q, abs=1e-12)
     assert (world.v == 0.0).all()

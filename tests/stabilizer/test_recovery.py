@@ -1,7 +1,8 @@
-"""Pushes in simulation: none, walking, standing."""
+"""Recovery: its decisions by themselves, and pushes in simulation: none, walking, standing."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, radians, sin
 
 import numpy as np
@@ -9,13 +10,73 @@ import pytest
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.footstep import Footstep
+from preview_walk.geometry.poses import pose_at
+from preview_walk.geometry.support import Sole
 from preview_walk.robots.robot import Robot
+from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
+from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_adaptation import LATEST, RELIFT
+from preview_walk.stabilizer.step_limits import step_limits
+from preview_walk.types import Array, other
+
+OMEGA = 3.3
+LIMITS = step_limits(0.8, 0.2, Sole(0.1, 0.06), OMEGA)
 
 
-@pytest.fixture(scope="module")
-def talos() -> Robot:
-    return pw.load_robot("talos")
+def in_swing(error: tuple[float, float], free: bool = True) -> tuple[Situation, Footstep]:
+    """Return a walker in mid swing whose DCM is off by `error` (m), and the step in the air."""
+    plan = pw.FootstepPlanner(0.2, 0.2, 0.9).generate_footsteps(8)
+    step = plan.steps[3]
+    t = step.lift + 0.4 * (step.land - step.lift)
+    stance = plan.sole(other(step.foot), t)[:2, 3]
+    end = step.pos[:2] + 0.4 * (stance - step.pos[:2])
+
+    def planned(time: float) -> Array:
+        return stance + (end - stance) * np.exp(OMEGA * (min(time, step.land) - step.land))
+
+    start = plan.start_pose(step)[:3, 3]
+    swing = (0.5 * (start + step.pos), (step.pos - start) / (step.land - step.lift))
+    dcm = planned(t) + error
+    return Situation(t, plan, dcm, np.zeros(2), planned, swing if free else None), step
+
+
+def test_nothing_is_decided_where_nothing_is_wrong():
+    situation, _ = in_swing((0.0, 0.0))
+    assert recover(situation, RecoveryMemory(), LIMITS).plan is None
+
+
+def test_a_decision_says_what_it_remembers_and_changes_nothing():
+    situation, step = in_swing((0.0, -0.1))
+    memory = RecoveryMemory()
+    decision = recover(situation, memory, LIMITS)
+    assert decision.plan is not None
+    assert decision.plan.steps[3].pos != pytest.approx(step.pos)
+    assert decision.memory.nominal is step
+    assert decision.memory.changed == situation.t
+    assert situation.plan.steps[3] is step
+    assert memory.nominal is None
+    # Asked again under the changed plan it still knows the step that was commanded.
+    again = replace(situation, plan=decision.plan)
+    assert recover(again, decision.memory, LIMITS).memory.nominal is step
+
+
+def test_a_foot_that_has_touched_down_is_not_moved():
+    situation, _ = in_swing((0.0, -0.1), free=False)
+    assert recover(situation, RecoveryMemory(), LIMITS).plan is None
+
+
+def test_an_early_touchdown_is_a_landing_in_a_recovery_only():
+    situation, step = in_swing((0.0, 0.0))
+    t, plan, pose = situation.t, situation.plan, pose_at(0.5, 0.12, 0.1)
+    recovering = RecoveryMemory(changed=t - 0.2)
+    landed = early_landing(plan, t, step.foot, pose, recovering)
+    assert landed is not None
+    assert landed.steps[3].pose == pytest.approx(pose)
+    assert t < landed.steps[3].land < t + 1e-3
+    assert early_landing(plan, t, other(step.foot), pose, recovering) is None
+    assert early_landing(plan, t, step.foot, pose, RecoveryMemory(changed=t - 2.0)) is None
+    assert early_landing(plan, step.land - 0.01, step.foot, pose, recovering) is None
 
 
 def pushed(robot: Robot, share: float | None, angle: float, impulse: float) -> pw.Walk:

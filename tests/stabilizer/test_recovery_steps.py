@@ -21,10 +21,21 @@ from preview_walk.stabilizer.recovery_steps import (
     step_out,
     step_sooner,
 )
+from preview_walk.stabilizer.step_limits import StepLimits
 
 SOLE = Sole(0.1, 0.06)
 GAIT = GaitLimits(sole=SOLE, step_width=0.2, min_width=0.14, max_width=0.55)
 OMEGA, SWING_TIME = 3.3, 0.35
+LIMITS = StepLimits(
+    gait=GAIT,
+    omega=OMEGA,
+    zmp=(SOLE.half_length, SOLE.half_width),
+    swing_time=(0.33, 1.0),
+    swing_speed=3.7,
+    swing_acceleration=25.0,
+    tolerance=0.026,
+    step_out_time=SWING_TIME,
+)
 
 
 def walk() -> FootstepPlan:
@@ -36,7 +47,7 @@ def stand() -> FootstepPlan:
 
 
 def out(plan: FootstepPlan, t: float, dcm: tuple[float, float]) -> FootstepPlan | None:
-    return step_out(plan, t, np.array(dcm), SOLE, GAIT, OMEGA, SWING_TIME)
+    return step_out(plan, t, np.array(dcm), LIMITS)
 
 
 def test_a_step_that_lands_elsewhere_takes_the_later_ones_along():
@@ -124,7 +135,7 @@ def test_a_foot_that_just_landed_steps_again_where_the_other_would_have_to_cross
     side = 1.0 if stance.foot == "left" else -1.0
     t = stance.land + 0.001
     dcm = stance.pos[:2] + np.array((-0.05, side * 0.07))
-    new = step_out(plan, t, dcm, SOLE, GAIT, OMEGA, 0.25)
+    new = step_out(plan, t, dcm, replace(LIMITS, step_out_time=0.25))
     assert new is not None
     again = new.steps[1]
     assert again.foot == stance.foot
@@ -146,7 +157,7 @@ def test_a_dcm_that_ends_between_the_feet_is_caught_by_the_foot_that_is_next(sid
     x, y = step.pos[:2].tolist()
     dcm = np.array((x - 1.1 * SOLE.half_length, y + 0.9 * side * SOLE.half_width))
     wide = replace(GAIT, max_width=0.7)  # the foot that landed could well catch it too
-    new = step_out(plan, t, dcm, SOLE, wide, OMEGA, SWING_TIME)
+    new = step_out(plan, t, dcm, replace(LIMITS, gait=wide))
     assert new is not None
     ahead = [s for s in new.steps if s.lift > t]
     assert ahead[0].foot == following.foot

@@ -13,14 +13,16 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.geometry.poses import pose_at, yaw_of
 from preview_walk.geometry.support import Sole
+from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE
+from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_adaptation import (
     DROP,
     LATEST,
     RELIFT,
     SOON,
-    StepLimits,
     adapt_step,
 )
+from preview_walk.stabilizer.step_limits import StepLimits
 from preview_walk.types import Array, other
 
 OMEGA = 3.3
@@ -35,6 +37,7 @@ LIMITS = StepLimits(
     swing_speed=3.7,
     swing_acceleration=25.0,
     tolerance=0.026,
+    step_out_time=0.36,
 )
 
 
@@ -55,6 +58,22 @@ def planned(plan: FootstepPlan, step: Footstep, t: float) -> tuple[Array, Array]
     return now, end
 
 
+def adapted(
+    plan: FootstepPlan,
+    t: float,
+    dcm: Array,
+    planned: tuple[Array, Array],
+    swing: tuple[Array, Array],
+    nominal: Footstep,
+    limits: StepLimits = LIMITS,
+) -> FootstepPlan | None:
+    """Return the answer to a DCM where the plan has `planned` now and after the landing."""
+    situation = Situation(
+        t, plan, dcm, np.zeros(2), lambda time: planned[0] if time == t else planned[1], swing
+    )
+    return adapt_step(situation, nominal, limits)
+
+
 def answer(
     error: Array, start: tuple[float, float, float] = (0.0, 0.0, 0.0), limits: StepLimits = LIMITS
 ) -> tuple[FootstepPlan, Footstep, FootstepPlan | None]:
@@ -62,7 +81,7 @@ def answer(
     dcm = planned(plan, step, t)
     here = 0.5 * (plan.start_pose(step)[:3, 3] + step.pos)
     speed = (step.pos - plan.start_pose(step)[:3, 3]) / (step.land - step.lift)
-    return plan, step, adapt_step(plan, t, dcm[0] + error, dcm, (here, speed), step, limits)
+    return plan, step, adapted(plan, t, dcm[0] + error, dcm, (here, speed), step, limits)
 
 
 @pytest.mark.parametrize("error", [(0.0, 0.0), (0.02, 0.0), (-0.02, 0.01), (0.0, 0.02)])
@@ -75,15 +94,15 @@ def test_a_standing_or_a_landing_foot_is_left_alone():
     far, here = np.array((1.0, 1.0)), (step.pos, np.zeros(3))
     for t in (step.land + 0.05, step.land - 0.5 * SOON):
         dcm = planned(plan, step, t)
-        assert adapt_step(plan, t, dcm[0] + far, dcm, here, step, LIMITS) is None
+        assert adapted(plan, t, dcm[0] + far, dcm, here, step, LIMITS) is None
 
 
 def test_a_foot_about_to_land_ahead_rises_again_for_a_push_back():
     plan, step, _ = walk()
     t = step.land - 0.5 * LATEST
     dcm, here = planned(plan, step, t), (step.pos, np.zeros(3))
-    assert adapt_step(plan, t, dcm[0] + (-0.01, 0.0), dcm, here, step, LIMITS) is None
-    new = adapt_step(plan, t, dcm[0] + (-0.2, 0.0), dcm, here, step, LIMITS)
+    assert adapted(plan, t, dcm[0] + (-0.01, 0.0), dcm, here, step, LIMITS) is None
+    new = adapted(plan, t, dcm[0] + (-0.2, 0.0), dcm, here, step, LIMITS)
     assert new is not None
     changed = new.steps[3]
     assert changed.land >= t + RELIFT - 1e-9
@@ -94,7 +113,7 @@ def test_a_foot_about_to_land_is_put_down_at_once_where_it_is_for_other_pushes()
     plan, step, _ = walk()
     t = step.land - 0.5 * LATEST
     dcm, here = planned(plan, step, t), (step.pos, np.zeros(3))
-    new = adapt_step(plan, t, dcm[0] + (0.12, 0.0), dcm, here, step, LIMITS)
+    new = adapted(plan, t, dcm[0] + (0.12, 0.0), dcm, here, step, LIMITS)
     assert new is not None
     changed = new.steps[3]
     assert changed.land == pytest.approx(t + SOON)
@@ -110,7 +129,7 @@ def test_a_foot_is_not_set_down_faster_than_it_can_fall(height: float):
     here = 0.5 * (plan.start_pose(step)[:3, 3] + step.pos) + (0.0, 0.0, height)
     side = -1.0 if step.foot == "left" else 1.0
     error = np.array((0.0, 0.09 * side))
-    new = adapt_step(plan, t, dcm[0] + error, dcm, (here, np.zeros(3)), step, LIMITS)
+    new = adapted(plan, t, dcm[0] + error, dcm, (here, np.zeros(3)), step, LIMITS)
     assert new is not None
     drop = np.sqrt(height / (np.sqrt(3.0) / 10.0 * DROP))
     assert new.steps[3].land - t >= max(LATEST, 0.99 * drop)
@@ -170,9 +189,9 @@ def test_left_and_right_are_mirror_images():
     twin = FootstepPlan([mirrored(s) for s in plan], plan.weight_shift)
     dcm = planned(plan, step, t)
     error, here, speed = np.array((0.05, 0.09)), step.pos, np.array((0.4, 0.0, 0.0))
-    new = adapt_step(plan, t, dcm[0] + error, dcm, (here, speed), step, LIMITS)
+    new = adapted(plan, t, dcm[0] + error, dcm, (here, speed), step, LIMITS)
     back = tuple(d * flip[:2] for d in dcm)
-    other_new = adapt_step(
+    other_new = adapted(
         twin,
         t,
         back[0] + error * flip[:2],
@@ -185,3 +204,23 @@ def test_left_and_right_are_mirror_images():
     assert other_new is not None
     assert np.allclose(new.steps[3].pos * flip, other_new.steps[3].pos, atol=1e-9)
     assert new.steps[3].land == pytest.approx(other_new.steps[3].land)
+
+
+@pytest.mark.parametrize("sideways", [0.06, -0.06])
+def test_the_dcm_lands_where_the_plan_has_it_from_its_foot(sideways: float):
+    """A pendulum simulated to the new landing, its ZMP at the stance sole's centre.
+
+    Fore and aft, where nothing pushed, its DCM is as far from the new foothold as the plan's is
+    from the old one at that time; as far as the plan's is now would be 75 mm elsewhere.
+    """
+    plan, step, t = walk()
+    dcm = planned(plan, step, t)
+    pushed = dcm[0] + (0.0, sideways)
+    _, _, new = answer(np.array((0.0, sideways)))
+    assert new is not None
+    changed, stance = new.steps[3], plan.sole(other(step.foot), t)[:2, 3]
+    time = changed.land + 0.5 * SHORT_PAUSE - t
+    landed = stance + (pushed - stance) * np.exp(OMEGA * time)
+    offset, wanted = landed - changed.pos[:2], dcm[1] - step.pos[:2]
+    # What the ZMP and the next step take up leaves 10 and 24 mm.
+    assert abs(offset[0] - wanted[0]) < 0.03

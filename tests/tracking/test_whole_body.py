@@ -92,7 +92,7 @@ def test_predicted_accelerations_are_those_of_mujoco(make_walk: MakeWalk) -> Non
     ankle, which carry it, take it all.
     """
     walk = make_walk()
-    walk.world.model.dof_frictionloss[:] = 0.0
+    walk.plant.model.dof_frictionloss[:] = 0.0
     walk.run(until=2.0)  # 0.4 s into the first swing
     body, checked = walk.walker.body, 0
     torques = body.torques
@@ -122,7 +122,7 @@ def test_predicted_accelerations_are_those_of_mujoco(make_walk: MakeWalk) -> Non
 
 def simulated_acceleration(walk: Walk, torques: Array) -> Array:
     """Return MuJoCo's acceleration (nv,) for these torques, in Pinocchio's conventions."""
-    world, dynamics = walk.world, walk.walker.body.dynamics
+    world, dynamics = walk.plant, walk.walker.body.dynamics
     data = mujoco.MjData(world.model)
     data.qpos[:], data.qvel[:] = world.data.qpos, world.data.qvel
     data.ctrl[:] = torques[world.model.jnt_dofadr[world.model.actuator_trnid[:, 0]] - 6]
@@ -215,19 +215,19 @@ def test_standing_survives_a_solver_that_never_works_again(make_walk: MakeWalk) 
     walk.run(until=1.2)
     assert not walk.fallen
     assert body.status == DAMPED_POSTURE
-    assert np.abs(walk.world.v[6:]).max() < 0.5
+    assert np.abs(walk.plant.v[6:]).max() < 0.5
 
 
 def test_a_walk_with_nan_in_one_measured_velocity_stops_and_says_so(make_walk: MakeWalk) -> None:
     walk = make_walk(1)
     walk.run(until=0.5)
-    sense = walk.world.sense
+    sense = walk.plant.sense
 
     def broken() -> None:
         sense()
-        walk.world.v[6 + walk.robot.joint_names.index("arm_left_3_joint")] = np.nan
+        walk.plant.v[6 + walk.robot.joint_names.index("arm_left_3_joint")] = np.nan
 
-    walk.world.sense = broken  # type: ignore[method-assign]
+    walk.plant.sense = broken  # type: ignore[method-assign]
     walk.run()
     assert walk.fallen
     assert walk.record().run.fall_reason == (
@@ -307,7 +307,7 @@ def test_wrenches_are_what_the_soles_then_feel(make_walk: MakeWalk) -> None:
     walk.run(until=2.0)
     wrench = walk.walker.body.wrench("right")
     np.testing.assert_array_equal(walk.walker.body.wrench("left"), 0.0)
-    walk.world.sense()
-    felt = walk.world.wrench["right"]
+    walk.plant.sense()
+    felt = walk.plant.wrench["right"]
     np.testing.assert_allclose(wrench[:3], felt[:3], atol=10.0)
     np.testing.assert_allclose(wrench[3:], felt[3:], atol=3.0)
