@@ -37,6 +37,7 @@ _OPTION_OF = {
     "step_width": "--robot",
     "n_steps": "--steps",
     "start_pos": "--start",
+    "turn": "--turn",
     "physics_hz": "--physics-hz",
     "friction": "--friction",
     "solver": "--solver",

@@ -1,5 +1,6 @@
 """Footsteps as values, the plans made of them, and the planners that make plans.
 
 Imports `geometry`; it knows no robot and no simulator. Start with `footstep` and `plan`, then
-`planner` for a walk of equal steps and `velocity` for one by command.
+`planner` for a walk of equal steps, `velocity` for one by command, `reading` for plans that others
+have written, and `handover` for whether a plan may replace the one that is walked.
 """

@@ -250,4 +250,4 @@ class GaitLimits:
 
 def _side(foot: Foot) -> float:
     """Return 1 for the left foot, -1 for the right one."""
-    return 1.0 if foot == "left" or foot_of(foot, "foot") == "left" else -1.0
+    return 1.0 if foot_of(foot, "foot") == "left" else -1.0

@@ -61,9 +61,9 @@ def as_plan(value: PlanLike, ratio: float = DOUBLE_SUPPORT_RATIO) -> FootstepPla
     Raises:
         InvalidInput: it is none of these, or no plan comes of it.
     """
+    share_of(ratio, "ratio", "the step time")
     if isinstance(value, FootstepPlan):
         return value
-    share_of(ratio, "ratio", "the step time")
     given: object = value
     try:
         if isinstance(given, Sequence) and not isinstance(given, str | bytes):

@@ -116,8 +116,7 @@ def compose(frame: Heading, dx: float, dy: float, dyaw: float = 0.0) -> Heading:
         c, s = cos(yaw), sin(yaw)
         return x + c * dx - s * dy, y + s * dx + c * dy, yaw + dyaw
     except _WRONG:
-        came = f"{shown(frame)} and {shown((dx, dy, dyaw))}"
-        raise InvalidInput(f"frames must be (x, y, yaw) in m and rad, got {came}.") from None
+        raise _no_frame(frame, (dx, dy, dyaw)) from None
 
 
 def relative(frame: Heading, other: Heading) -> Heading:
@@ -129,10 +128,12 @@ def relative(frame: Heading, other: Heading) -> Heading:
     try:
         dx, dy = other[0] - frame[0], other[1] - frame[1]
         c, s = cos(frame[2]), sin(frame[2])
-        return c * dx + s * dy, c * dy - s * dx, wrap(other[2] - frame[2])
+        x, y, turn = c * dx + s * dy, c * dy - s * dx, wrap(other[2] - frame[2])
     except _WRONG:
-        came = f"{shown(frame)} and {shown(other)}"
-        raise InvalidInput(f"frames must be (x, y, yaw) in m and rad, got {came}.") from None
+        raise _no_frame(frame, other) from None
+    if not isinstance(x, float):
+        raise _no_frame(frame, other)
+    return x, y, turn
 
 
 def as_pose(value: object, name: str) -> Array:
@@ -177,6 +178,11 @@ def as_heading(value: object, name: str) -> Heading:
 
 def _no_pose(value: object) -> InvalidInput:
     return InvalidInput(f"a pose must be a (4, 4) array, got {shown(value)}.", argument="pose")
+
+
+def _no_frame(frame: object, other: object) -> InvalidInput:
+    came = f"{shown(frame)} and {shown(other)}"
+    return InvalidInput(f"frames must be (x, y, yaw) in m and rad, got {came}.", argument="frame")
 
 
 def _is_rigid(pose: Array) -> bool:

@@ -12,7 +12,7 @@ from math import cos, hypot, sin
 
 import numpy as np
 
-from preview_walk.arguments import SMALLEST, finite_number, number_from_zero, time_of
+from preview_walk.arguments import SMALLEST, finite_number, instance_of, number_from_zero, time_of
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
@@ -222,7 +222,12 @@ def swing_of(
         step: one of its steps.
         swing_height: as in `Swing`, m.
         ground_clearance: as in `Swing`, m.
+
+    Raises:
+        InvalidInput: no plan, no footstep, or a negative height.
     """
+    instance_of(plan, FootstepPlan, "plan")
+    instance_of(step, Footstep, "step")
     return Swing(
         plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
     )

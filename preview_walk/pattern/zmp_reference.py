@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from preview_walk.arguments import instance_of, number_from_zero, real_array, shown
+from preview_walk.arguments import LARGEST, instance_of, number_from_zero, real_array, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
@@ -81,7 +81,7 @@ class ZMPReference:
     def _locate(self, t: ArrayLike) -> tuple[Array, Array]:
         """Return the polynomials (..., 4, 2) at times t (s), and the times since they began."""
         times = real_array(t, "t", "times in s")
-        if not np.isfinite(times).all():
+        if not (np.abs(times) <= LARGEST).all():
             raise InvalidInput(f"t must be finite times in s, got {shown(t)}.", argument="t")
         i = np.searchsorted(self.times, times, side="right")
         return self._coefficients[i], (times - self._origins[i])[..., None]
