@@ -15,6 +15,7 @@ from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.poses import Heading, midfeet, pose_at, relative
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
@@ -129,7 +130,7 @@ class WalkingController:
         n_steps: int = 6,
         dt: float = 0.01,
         *,
-        plan: FootstepPlan | None = None,
+        plan: PlanLike | None = None,
         pushes: Sequence[Push] = (),
         turn: float = 0.0,
         swing_height: float | None = None,
@@ -170,6 +171,7 @@ class WalkingController:
                 f"turn must be left out beside a plan, which has its own, got {turn}.", "turn"
             )
         else:
+            plan = as_plan(plan)
             _require_near(plan, place)
         require_walkable(plan, gait_limits(self._robot))
         walk = Walk(

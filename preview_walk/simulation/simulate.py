@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
 from preview_walk.controller.robot_limits import gait_limits
-from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
@@ -36,7 +36,7 @@ class Settings(TypedDict, total=False):
 
 def simulate(
     robot: Robot,
-    plan: FootstepPlan,
+    plan: PlanLike,
     *,
     progress: Progress | None = None,
     viewer: bool = False,
@@ -49,7 +49,7 @@ def simulate(
 
     Args:
         robot: from `load_robot`.
-        plan: the footsteps.
+        plan: the footsteps, in any form that `as_plan` reads.
         progress: called now and then with the simulated time and its end (s).
         viewer: open MuJoCo's live viewer and run in real time.
         settings: the keyword arguments of `Walk`.
@@ -57,6 +57,7 @@ def simulate(
     Raises:
         InvalidInput: the plan has a step that the robot cannot make; and as `Walk` does.
     """
+    plan = as_plan(plan)
     require_walkable(plan, gait_limits(robot))
     return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
 

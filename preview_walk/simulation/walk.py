@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from preview_walk.controller.robot_limits import command_limits
+from preview_walk.controller.robot_limits import command_limits, gait_limits
 from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
+from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.poses import as_heading, pose_at
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
@@ -75,7 +77,7 @@ class Walk:
     def __init__(
         self,
         robot: Robot | Plant,
-        plan: FootstepPlan,
+        plan: PlanLike,
         *,
         physics_hz: int | None = None,
         control_hz: float = CONTROL_HZ,
@@ -94,7 +96,7 @@ class Walk:
         Args:
             robot: from `load_robot`, to walk in the project's own world; or a plant (a `Scene`, or
                 one's own), which has its physics, friction, pushes and robot already.
-            plan: the footsteps.
+            plan: the footsteps, in any form that `as_plan` reads.
             physics_hz: steps of the physics per second, a multiple of control_hz; None: 1000.
             control_hz: ticks of the controller per second.
             friction: Coulomb friction between soles and floor, known to the controller; None: 0.8.
@@ -113,6 +115,7 @@ class Walk:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
                 a plant a setting that is the plant's own.
         """
+        plan = as_plan(plan)
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
         self.plant = plant_of(robot, com_height, **own)
         self.robot = self.plant.robot
@@ -184,12 +187,25 @@ class Walk:
 
     @property
     def plan(self) -> FootstepPlan:
-        """The footsteps walked by; assign others at any time."""
+        """The footsteps walked by; assign others at any time, in any form that `as_plan` reads.
+
+        They must begin where the feet are and be in reach of the legs: else `InvalidInput` is
+        raised, and the old plan goes on.
+        """
         return self.walker.plan
 
     @plan.setter
-    def plan(self, plan: FootstepPlan) -> None:
-        self._take(lambda: self.walker.follow(plan))
+    def plan(self, plan: PlanLike) -> None:
+        new = as_plan(plan)
+
+        def follow() -> None:
+            soles = {foot: self.walker.body.dynamics.soles[foot].pose for foot in FEET}
+            refused = refusal(new, self.plan, self.time, gait_limits(self.robot), soles)
+            if refused is not None:
+                raise refused
+            self.walker.follow(new)
+
+        self._take(follow)
 
     @property
     def fallen(self) -> bool:
