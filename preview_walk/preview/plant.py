@@ -66,9 +66,9 @@ def read_plant(system: Linear, dt: float | None = None, E: ArrayLike | None = No
     """Return the discrete-time plant that a description of a linear system means.
 
     Args:
-        system: A `control.StateSpace` or `control.TransferFunction`; or matrices (A, B, C, D) of a
-            discrete-time plant; or (A, B, C, D, dt) as `control.ss` takes them, with dt = 0 for a
-            continuous-time one.
+        system: A `control.StateSpace`, a `control.TransferFunction` or a `Plant`; or matrices (A,
+            B, C, D) of a discrete-time plant; or (A, B, C, D, dt) as `control.ss` takes them, with
+            dt = 0 for a continuous-time one.
         dt: Sampling time (s) at which a continuous-time plant is discretised by `control.c2d`, u
             and w held over a sample; or the sampling time of (A, B, C, D), not specified when
             None.
@@ -80,6 +80,8 @@ def read_plant(system: Linear, dt: float | None = None, E: ArrayLike | None = No
     """
     if dt is not None:
         require_positive("dt", dt, "s")
+    if isinstance(system, Plant) and dt is None and E is None:
+        return system
     space = _state_space(system, dt)
     if not all(np.isfinite(part).all() for part in (space.A, space.B, space.C, space.D)):
         raise InvalidInput(

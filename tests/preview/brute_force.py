@@ -23,17 +23,39 @@ def optimal_input(
 ) -> Array:
     """Return u (H, m) that minimises the cost of H samples for a known r (H + 1, p), w (H, q).
 
-    Without a final cost sample H only counts by its state error with D = 0; the run must be long.
+    Without a final cost sample H counts by its state's increment alone; the run must be long.
     u(-1) = 0, w(-1) = 0.
     """
-    (r, w), h = future, len(future[1])
-    n, m = plant.B.shape
+    matrix, right = least_squares(plant, weights, future, x0, integral=integral, final=final)
+    with one_thread():  # on a busy machine the threads wait for each other
+        q, upper = np.linalg.qr(matrix)
+        return np.asarray(solve_triangular(upper, q.T @ right)).reshape(-1, plant.B.shape[1])
+
+
+def motion(plant: Plant, w: Array, x0: Array) -> tuple[Array, Array]:
+    """Return x(0) to x(H) as free (H + 1, n) + forced (H + 1, n, H m) times all inputs."""
+    h, (n, m) = len(w), plant.B.shape
     free, forced = np.zeros((h + 1, n)), np.zeros((h + 1, n, h * m))
     free[0] = x0
     for k in range(h):
         free[k + 1] = plant.A @ free[k] + plant.E @ w[k]
         forced[k + 1] = plant.A @ forced[k]
         forced[k + 1, :, k * m : (k + 1) * m] += plant.B
+    return free, forced
+
+
+def least_squares(
+    plant: Plant,
+    weights: Weights,
+    future: tuple[Array, Array],
+    x0: Array,
+    *,
+    integral: bool = True,
+    final: Array | None = None,
+) -> tuple[Array, Array]:
+    """Return M and b of the cost |M u - b|^2 that `optimal_input` minimises."""
+    (r, w), h, m = future, len(future[1]), plant.B.shape[1]
+    free, forced = motion(plant, w, x0)
     held = np.eye(h * m).reshape(h, m, h * m)
     before = np.concatenate([np.zeros((1, m, h * m)), held[:-1]])
     roots = [np.linalg.cholesky(q + 1e-300 * np.eye(len(q))).T for q in weights]
@@ -54,7 +76,4 @@ def optimal_input(
         rows.append((root @ np.vstack([last, forced[h] - forced[h - 1]]), root @ end))
     matrix = np.vstack([part.reshape(-1, h * m) for part, _ in rows])
     right = -np.concatenate([np.asarray(part).ravel() for _, part in rows])
-    with one_thread():  # on a busy machine the threads wait for each other
-        q, upper = np.linalg.qr(matrix)
-    solution: Array = solve_triangular(upper, q.T @ right).reshape(h, m)
-    return solution
+    return matrix, right

@@ -1,0 +1,202 @@
+"""LQR, LQI, preview and MPC on the same plant: errors, effort and time side by side."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import finite_vector, sequence, shown
+from preview_walk.preview.design import PreviewDesign
+from preview_walk.preview.gains import preview_gains
+from preview_walk.preview.limits import Limits, output_limits
+from preview_walk.preview.response import Tracking, read_disturbance
+from preview_walk.preview.servo import PreviewServo
+from preview_walk.types import Array
+
+LAWS = ("LQR", "LQI", "preview", "MPC")
+"""What `compare` runs: no preview and no integral action, no preview, the design, and the design
+within limits."""
+
+
+@dataclass(frozen=True, eq=False)
+class LawResult:
+    """One law on the plant.
+
+    Attributes:
+        name: One of `LAWS`.
+        run: The plant's motion.
+        seconds: Time of one sample of the law (s), the mean over the run on this machine.
+        failures: Samples at which a quadratic programme was not solved.
+        outside: Largest distance of an output from its limits.
+
+    """
+
+    name: str
+    run: Tracking
+    seconds: float
+    failures: int
+    outside: float
+
+    def __repr__(self) -> str:
+        return f"LawResult({self.name}: {self.run!r})"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Several laws on one plant; `print` shows the table.
+
+    Attributes:
+        design: The preview servo that the others were made from.
+        reference: (M, p) the reference.
+        limits: The limits.
+        results: One for each law, in the order run.
+
+    """
+
+    design: PreviewDesign
+    reference: Array
+    limits: Limits
+    results: tuple[LawResult, ...]
+
+    def __repr__(self) -> str:
+        names = ", ".join(result.name for result in self.results)
+        return f"Comparison({names}: {len(self.reference)} samples)"
+
+    def __getitem__(self, name: str) -> LawResult:
+        """Return the result of a law by its name."""
+        for result in self.results:
+            if result.name == name:
+                return result
+        raise InvalidInput(
+            f"expected one of {', '.join(r.name for r in self.results)}, got {shown(name)}.",
+            argument="name",
+        )
+
+    def __str__(self) -> str:
+        """Return the table: a row for each law."""
+        titles = ("law", "rms error", "max error", "rms u", "max |u|", "rms du", "outside",
+                  "us/sample", "failures")  # fmt: skip
+        lines = ["".join(f"{title:>12}" for title in titles)]
+        for result in self.results:
+            error, u = result.run.error, result.run.u
+            change = np.diff(u, axis=0, prepend=0.0)
+            numbers = (
+                _rms(error), np.abs(error).max(), _rms(u), np.abs(u).max(), _rms(change),
+                result.outside, 1e6 * result.seconds,
+            )  # fmt: skip
+            cells = "".join(f"{number:>12.4g}" for number in numbers)
+            lines.append(f"{result.name:>12}{cells}{result.failures:>12}")
+        return "\n".join(lines)
+
+    def plot(self, path: str | os.PathLike[str]) -> Path:
+        """Draw outputs and inputs of all laws over time.
+
+        Args:
+            path: The file to write; its suffix names the format.
+
+        Returns:
+            The path written.
+
+        Raises:
+            InvalidInput: If the suffix is not that of a picture.
+            OutputError: If the file cannot be written.
+
+        """
+        from preview_walk.preview.comparison_plot import plot_comparison
+
+        return plot_comparison(self, path)
+
+
+def compare(
+    design: PreviewDesign,
+    reference: ArrayLike,
+    *,
+    disturbance: ArrayLike | None = None,
+    x0: ArrayLike | None = None,
+    limits: Limits | None = None,
+    laws: Sequence[str] = LAWS,
+) -> Comparison:
+    """Run several laws with the same weights on the same plant.
+
+    LQR has neither preview nor integral action and weights state and input with what the others
+    weight their increments with; LQI has no preview; MPC is the preview servo within limits. All of
+    them measure the state, and cut their input to its limits.
+
+    Args:
+        design: A preview servo, from `preview_gains`.
+        reference: (M, p), or (M,) when p = 1; held past its end.
+        disturbance: (M, q), or (M,) when q = 1, acting on all; only preview and MPC foresee it.
+        x0: (n,) state at the start; zero when None.
+        limits: Limits of inputs and outputs; none when None. Only MPC knows those of outputs.
+        laws: Which of `LAWS` to run.
+
+    Raises:
+        InvalidInput: If a shape is wrong, a value not finite or a law unknown.
+
+    """
+    limits = Limits() if limits is None else limits
+    r = sequence("reference", reference, len(design.plant.C))
+    w = read_disturbance(design, disturbance, len(r))
+    start = finite_vector("x0", x0, np.zeros(len(design.plant.A)))
+    bounds = output_limits(limits.y_min, limits.y_max, r.shape)
+    results = []
+    for name in laws:
+        servo = _servo(name, design, limits)
+        run, seconds = _simulate(servo, r, np.zeros((len(r), 0)) if w is None else w, start, bounds)
+        excess = np.maximum(run.y - bounds[1], bounds[0] - run.y)
+        outside = float(np.maximum(excess, 0.0).max())
+        results.append(LawResult(name, run, seconds, getattr(servo, "failures", 0), outside))
+    return Comparison(design, r, limits, tuple(results))
+
+
+def _servo(name: str, design: PreviewDesign, limits: Limits) -> PreviewServo:
+    """Return the servo of a law."""
+    weights = design.Q_e, design.Q_x, design.R
+    if name == "MPC":
+        from preview_walk.preview.mpc import PredictiveServo
+
+        return PredictiveServo(design, limits)
+    if name == "LQR":
+        design = preview_gains(design.plant, *weights, 0, integral=False)
+    elif name == "LQI":
+        design = preview_gains(design.plant, *weights, 0)
+    elif name != "preview":
+        raise InvalidInput(
+            f"expected laws out of {', '.join(LAWS)}, got {shown(name)}.", argument="laws"
+        )
+    return PreviewServo(design, u_min=limits.u_min, u_max=limits.u_max)
+
+
+def _simulate(
+    servo: PreviewServo, r: Array, w: Array, start: Array, bounds: tuple[Array, Array]
+) -> tuple[Tracking, float]:
+    """Return the run of a servo on its plant, and the mean time of a step (s)."""
+    plant, ahead = servo.design.plant, servo.design.horizon
+    r_held, w_held, low, high = (
+        np.concatenate([part, np.repeat(part[-1:], ahead, axis=0)]) for part in (r, w, *bounds)
+    )
+    predictive = hasattr(servo, "failures") and np.isfinite(np.concatenate(bounds)).any()
+    state, x, spent = servo.start(start), start, 0.0
+    xs, us = np.empty((len(r), len(start))), np.empty((len(r), plant.B.shape[1]))
+    for k in range(len(r)):
+        window = slice(k, k + ahead + 1)
+        more = {"y_limits": (low[window], high[window])} if predictive else {}
+        begin = time.perf_counter()
+        state = servo.step(state, r_held[window], w_held[k : k + ahead], **more)
+        spent += time.perf_counter() - begin
+        xs[k], us[k] = x, state.u
+        x = plant.A @ x + plant.B @ state.u + plant.E @ w[k]
+        state = servo.measured(state, x)
+    y = xs @ plant.C.T + us @ plant.D.T
+    return Tracking(x=xs, u=us, y=y, error=y - r), spent / len(r)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))

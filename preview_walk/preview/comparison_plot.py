@@ -1,0 +1,109 @@
+"""The plot of a comparison: each output over its reference, each input, all laws in one colour."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from preview_walk.errors import InvalidInput
+from preview_walk.files import whole_file
+from preview_walk.preview.limits import input_limits, output_limits
+from preview_walk.types import Array
+
+if TYPE_CHECKING:
+    from preview_walk.preview.compare import Comparison
+
+# Okabe and Ito's palette: told apart with any common colour vision, and in grey.
+COLOURS = {"LQR": "#E69F00", "LQI": "#009E73", "preview": "#0072B2", "MPC": "#D55E00"}
+
+# Laws that often coincide are drawn thin over thick.
+WIDTHS = {"LQR": 3.0, "LQI": 1.2, "preview": 3.0, "MPC": 1.2}
+
+
+def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Path:
+    """Draw outputs and inputs of all laws over time; return the path written.
+
+    Raises:
+        InvalidInput: If the suffix is not that of a picture.
+        OutputError: If the file cannot be written.
+
+    """
+    plant, r = comparison.design.plant, comparison.reference
+    p, m = len(plant.C), plant.B.shape[1]
+    figure = Figure(figsize=(9.0, 1.0 + 2.3 * (p + m)), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(p + m, 1, sharex=True, squeeze=False)[:, 0]
+    t: Array = comparison.design.dt * np.arange(len(r), dtype=np.float64)
+    limits = comparison.limits
+    y_sides = output_limits(limits.y_min, limits.y_max, (len(r), p))
+    u_sides = input_limits(limits.u_min, limits.u_max, m)
+    for row, name in enumerate(plant.outputs):
+        axes[row].plot(t, r[:, row], color="0.3", linewidth=1.0, linestyle="--", label="reference")
+        for result in comparison.results:
+            colour = COLOURS[result.name]
+            axes[row].plot(
+                t,
+                result.run.y[:, row],
+                color=colour,
+                linewidth=WIDTHS[result.name],
+                label=result.name,
+            )
+        _limit_lines(axes[row], t, [side[:, row] for side in y_sides])
+        axes[row].set_ylabel(name)
+    for row, name in enumerate(plant.inputs, p):
+        for result in comparison.results:
+            axes[row].step(
+                t,
+                result.run.u[:, row - p],
+                where="post",
+                color=COLOURS[result.name],
+                linewidth=WIDTHS[result.name],
+            )
+        _limit_lines(axes[row], t, [np.full(len(r), side[row - p]) for side in u_sides])
+        axes[row].set_ylabel(name)
+    for axis in axes:
+        axis.grid(True, color="0.9", linewidth=0.6)
+        axis.spines[["top", "right"]].set_visible(False)
+    counted = plant.dt is True
+    axes[-1].set_xlabel("sample" if counted else "time [s]")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=5,
+                  frameon=False)  # fmt: skip
+    return save(figure, path)
+
+
+def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
+    """Write a figure, whole or not at all, in the format that the suffix names.
+
+    Raises:
+        InvalidInput: If the suffix is not that of a picture.
+        OutputError: If the file cannot be written.
+
+    """
+    try:
+        target = Path(path)
+    except TypeError:
+        raise InvalidInput(
+            f"expected path to be a file name, got {path!r}.", argument="path"
+        ) from None
+    suffix, formats = target.suffix.lstrip(".").lower(), figure.canvas.get_supported_filetypes()
+    if suffix not in formats:
+        raise InvalidInput(
+            f"expected a file name that ends in one of {', '.join(sorted(formats))}, got "
+            f"'{target.name}'.",
+            argument="path",
+        )
+    with whole_file(target) as part:
+        figure.savefig(part, format=suffix, dpi=150)
+    return target
+
+
+def _limit_lines(axis: Axes, t: Array, sides: list[Array]) -> None:
+    for side in sides:
+        if np.isfinite(side).any():
+            axis.plot(t, side, color="0.5", linewidth=0.8, linestyle=":")

@@ -1,0 +1,69 @@
+"""One call, four laws, a table and a plot."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from preview_walk.errors import InvalidInput
+from preview_walk.preview.cart_table import cart_table
+from preview_walk.preview.compare import LAWS, Comparison, compare
+from preview_walk.preview.gains import preview_gains
+from preview_walk.preview.limits import Limits
+from preview_walk.preview.response import track
+
+
+@pytest.fixture(scope="module")
+def walk() -> Comparison:
+    """The cart-table at 20 ms: the ZMP moves 0.1 m in 40 ms and may not pass 0.101 m."""
+    design = preview_gains(cart_table(0.814, 0.02), 1.0, 0.0, 1e-6, 80)
+    reference = np.interp(np.arange(250) * 0.02, [2.0, 2.04], [0.0, 0.1])
+    return compare(design, reference, limits=Limits(y_min=-0.001, y_max=0.101))
+
+
+def test_every_law_does_what_it_is_known_for(walk: Comparison) -> None:
+    assert tuple(result.name for result in walk.results) == LAWS
+    np.testing.assert_allclose(
+        walk["preview"].run.u, track(walk.design, walk.reference).u, atol=1e-9
+    )
+    errors = {r.name: np.sqrt(np.mean(r.run.error**2)) for r in walk.results}
+    assert errors["preview"] < 0.1 * errors["LQI"]
+    # Within limits: a little more error, and only there the limits hold.
+    assert walk["preview"].outside > 1e-4
+    assert walk["MPC"].outside < 1e-6
+    assert errors["preview"] <= errors["MPC"] * (1 + 1e-6) < 1.2 * errors["preview"]
+    assert walk["MPC"].failures == 0
+
+
+def test_only_integral_action_or_foresight_removes_a_constant_disturbance() -> None:
+    system = ([[0.9]], [[0.1]], [[1.0]], [[0.0]])
+    design = preview_gains(system, 1.0, 0.0, 0.1, 30, E=[0.05])
+    runs = compare(design, np.ones(300), disturbance=np.ones(300), laws=("LQR", "LQI", "preview"))
+    last = {result.name: abs(result.run.error[-1, 0]) for result in runs.results}
+    assert last["LQI"] < 1e-9
+    assert last["preview"] < 1e-9
+    assert last["LQR"] > 0.01
+
+
+def test_the_table_and_the_plot(walk: Comparison, tmp_path: Path) -> None:
+    lines = str(walk).splitlines()
+    assert [line.split()[0] for line in lines] == ["law", *LAWS]
+    assert len({len(line) for line in lines}) == 1
+    assert repr(walk) == "Comparison(LQR, LQI, preview, MPC: 250 samples)"
+    assert walk.plot(tmp_path / "laws.png").stat().st_size > 10_000
+    with pytest.raises(InvalidInput, match="ends in one of"):
+        walk.plot(tmp_path / "laws.xyz")
+
+
+def test_refusals(walk: Comparison) -> None:
+    for call, argument in (
+        (lambda: compare(walk.design, np.zeros((3, 2))), "reference"),
+        (lambda: compare(walk.design, [0.0], laws=("PID",)), "laws"),
+        (lambda: compare(walk.design, [0.0], disturbance=[1.0]), "disturbance"),
+        (lambda: compare(walk.design, [0.0], x0="rest"), "x0"),
+        (lambda: compare(walk.design, [0.0], limits=Limits(y_max=np.ones(7))), "y_max"),
+        (lambda: walk["PID"], "name"),
+    ):
+        with pytest.raises(InvalidInput) as caught:
+            call()
+        assert caught.value.argument == argument
