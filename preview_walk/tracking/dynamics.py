@@ -18,11 +18,14 @@ _WORLD = pin.Convention.WORLD
 class FrameTerms:
     """A frame of the robot at the current state; valid until the next `Dynamics.update`.
 
-    - `rotation` (3, 3), `position` (3,): placement in the world.
-    - `velocity` (6,): [linear; angular] in m/s and rad/s, in the frame's own axes.
-    - `jacobian` (6, nv): velocity = jacobian @ v, in the frame's own axes.
-    - `drift` (6,): classical acceleration at zero joint acceleration, in the frame's own axes, so
-      that the acceleration is jacobian @ a + drift.
+    Attributes:
+        frame: its id in the Pinocchio model.
+        rotation: (3, 3) from the frame's axes to the world's.
+        position: (3,) of its origin in the world, m.
+        velocity: (6,) [linear; angular], the frame's own axes, m/s, rad/s.
+        jacobian: (6, nv) with velocity = jacobian @ v, the frame's own axes.
+        drift: (6,) classical acceleration at zero joint acceleration, the frame's own axes: the
+            acceleration is jacobian @ a + drift.
     """
 
     def __init__(self, owner: Dynamics, frame: int) -> None:
@@ -63,14 +66,19 @@ class Dynamics:
     Pinocchio's conventions: base velocity in base axes. Call `update(q, v)` once a tick; what the
     attributes hold is valid until the next call.
 
-    - `mass` (nv, nv): joint-space inertia, armature included: its upper triangle and its first six
-      rows; the rest of the lower triangle is undefined.
-    - `bias` (nv,): Coriolis, centrifugal and gravity terms, and viscous joint friction.
-    - `com`, `com_velocity` (3,) in the world; `com_jacobian` (3, nv) and `com_drift` (3,): the
-      CoM's acceleration is com_jacobian @ a + com_drift.
-    - `momentum_jacobian` (3, nv) and `momentum_drift` (3,): of the angular momentum about the CoM,
-      in world axes, and of its rate; for the drift call `update_momentum` first.
-    - `soles`: their `FrameTerms`; `torso`: of the trunk; `frame(name)`: of any other.
+    Attributes:
+        robot, model, data: the robot, and Pinocchio's model and workspace.
+        q, v: (nq,), (nv,) the state.
+        mass: (nv, nv) joint-space inertia, armature included: its upper triangle and its first six
+            rows; the rest of the lower triangle is undefined.
+        bias: (nv,) Coriolis, centrifugal and gravity terms, and viscous joint friction.
+        com, com_velocity: (3,) in the world, m, m/s.
+        com_jacobian, com_drift: (3, nv), (3,): the CoM's acceleration is
+            com_jacobian @ a + com_drift, world axes.
+        momentum_jacobian, momentum_drift: (3, nv), (3,) of the angular momentum about the CoM,
+            world axes, and of its rate; for the drift call `update_momentum` first.
+        soles: the `FrameTerms` of each sole frame.
+        torso: those of the trunk; `frame` gives any other's.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -111,12 +119,17 @@ class Dynamics:
     def frame(self, name: str) -> FrameTerms:
         """Return the terms of a frame of the Pinocchio model, kept up to date from now on.
 
-        Raises `InvalidInput` for a name that the model lacks.
+        Args:
+            name: of the frame.
+
+        Raises:
+            InvalidInput: the model has no frame of that name.
         """
         if not self.model.existFrame(name):
             raise InvalidInput(
                 f"expected the name of a frame of {self.robot.name}, got '{name}'; it has "
-                f"{', '.join(frame.name for frame in self.model.frames)}"
+                f"{', '.join(frame.name for frame in self.model.frames)}.",
+                "name",
             )
         terms = self.add_frame(self.model.getFrameId(name))
         terms.update(self.model, self.data)

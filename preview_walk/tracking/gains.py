@@ -2,21 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from math import isfinite
+
+from preview_walk.errors import InvalidInput
 
 
 @dataclass(frozen=True)
 class TrackingGains:
-    """Weights of the QP's tasks and frequencies of their feedback.
+    """Weights of the QP's tasks and rates of their feedback.
 
     Weights multiply squared accelerations (m^2/s^4 or rad^2/s^4), so they are the same for every
-    robot; a frequency f (rad/s) is a critically damped spring, stiffness f^2 and damping 2 f.
+    robot. A frequency f (rad/s) is a critically damped spring, stiffness f^2 and damping 2 f.
 
-    - `dcm`: rate (1/s) at which the error of the DCM decays; CoM height: `height` (rad/s).
-    - `com_weight`, `foot_weight`, `torso_weight`, `momentum_weight`: of these tasks.
-    - `posture_weight`: of every joint's posture; `trunk_weight`: of the joints between pelvis and
-      torso.
-    - `wrench_weight`: regularises the contact wrenches (per (100 N)^2).
+    Attributes:
+        dcm: rate at which an error of the DCM decays, 1/s.
+        height: frequency of the CoM's height, rad/s.
+        foot: frequency of a swinging sole's pose, rad/s.
+        torso: frequency of the torso's orientation, rad/s.
+        posture: frequency of the joints' posture, rad/s.
+        momentum: rate at which the angular momentum decays, 1/s.
+        com_weight: of the CoM's acceleration.
+        foot_weight: of a swinging sole's acceleration.
+        torso_weight: of the torso's angular acceleration.
+        posture_weight: of every joint's posture.
+        trunk_weight: of the posture of the joints between pelvis and torso.
+        momentum_weight: of the angular momentum's rate, 1/(N·m)^2; 0 leaves the task out.
+        wrench_weight: of the contact wrenches, per (100 N)^2; it regularises them.
+
+    Raises:
+        InvalidInput: a value is not finite and > 0 (>= 0 for `momentum_weight`).
     """
 
     dcm: float = 20.0
@@ -32,3 +47,15 @@ class TrackingGains:
     trunk_weight: float = 0.2
     momentum_weight: float = 0.0
     wrench_weight: float = 1e-3
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        for gain in fields(self):
+            value, least = getattr(self, gain.name), 0.0
+            real = isinstance(value, int | float) and not isinstance(value, bool)
+            optional = gain.name == "momentum_weight"
+            if not (real and isfinite(value) and (value > least or (optional and value == least))):
+                allowed = ">= 0" if optional else "> 0"
+                raise InvalidInput(
+                    f"{gain.name} must be finite and {allowed}, got {value!r}.", gain.name
+                )

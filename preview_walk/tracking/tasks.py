@@ -29,7 +29,7 @@ class Task(Protocol):
 
 
 class CoMTask:
-    """The CoM's acceleration (3,) in the world follows `acceleration`, in m/s^2."""
+    """The CoM's acceleration follows `acceleration` (3,), world, m/s^2."""
 
     rows = 3
 
@@ -46,8 +46,12 @@ class CoMTask:
 class FootTask:
     """A foot's sole follows a pose with its velocity and acceleration.
 
-    Feedback of natural frequency `frequency` (rad/s), critically damped. The reference is the sole
-    pose (4, 4), velocity (6,) and acceleration (6,) [linear; angular], all in the world.
+    Attributes:
+        foot: whose sole.
+        weight: see `Task`.
+        stiffness, damping: of the feedback, critically damped, 1/s^2, 1/s.
+        pose: (4, 4) wanted, world, m.
+        velocity, acceleration: (6,) wanted [linear; angular], world, m/s, rad/s (and per s).
     """
 
     rows = 6
@@ -76,7 +80,14 @@ class FootTask:
 
 
 class TorsoTask:
-    """The trunk keeps the orientation `rotation` (3, 3), turning at `velocity` (3,), world axes."""
+    """The trunk keeps an orientation.
+
+    Attributes:
+        weight: see `Task`.
+        stiffness, damping: of the feedback, critically damped, 1/s^2, 1/s.
+        rotation: (3, 3) wanted, from the trunk's axes to the world's.
+        velocity: (3,) wanted angular velocity, world axes, rad/s.
+    """
 
     rows = 3
 
@@ -99,9 +110,12 @@ class TorsoTask:
 
 
 class AngularMomentumTask:
-    """The angular momentum about the CoM, world axes, is drawn to `momentum` (3,) at `rate` (1/s).
+    """The angular momentum about the CoM is drawn to a value.
 
-    Its weight is in 1 / (N·m)^2.
+    Attributes:
+        weight: see `Task`, 1/(N·m)^2.
+        rate: at which the difference decays, 1/s.
+        momentum: (3,) wanted, world axes, N·m·s.
     """
 
     rows = 3
@@ -120,12 +134,16 @@ class AngularMomentumTask:
 
 
 class PostureTask:
-    """Joints are drawn to `posture` (n,): what the other tasks leave free.
+    """Joints are drawn to a posture: what the other tasks leave free.
 
-    It is the QP's own diagonal, not rows: `weight` (n,) holds a weight per joint and `target` the
-    wanted joint acceleration (n,). The joints listed in `loose` are only damped: legs, whose
-    configuration follows from feet, CoM and torso, so that a pull towards the posture would only
-    bend these tasks.
+    It is the QP's own diagonal, not rows. Loose joints are only damped: legs, whose configuration
+    follows from feet, CoM and torso, so that a pull towards the posture would only bend these.
+
+    Attributes:
+        posture: (n,) joint positions, rad.
+        weight: (n,) per joint, 1/(rad/s^2)^2.
+        stiffness: (n,) of the feedback, 1/s^2; 0 for loose joints.
+        damping: of the feedback, 1/s.
     """
 
     def __init__(

@@ -45,23 +45,35 @@ class TickTimes:
 class WholeBodyController:
     """Tasks and contacts in, torques out.
 
-    `com`, `foot_tasks`, `torso`, `posture` (and `momentum` when the gains give it a weight) are the
-    tasks: set their references, then call `update` and `torques`. A foot that is not in contact
-    follows its foot task. `add_task` adds one's own.
+    Set the tasks' references, then call `update` and `torques`. A foot that is not in contact
+    follows its foot task.
 
-    - `sink`: how fast (m/s) a foot in contact goes down, for one that has come off the ground.
-    - `solution`: the last tick's accelerations and wrenches; `times`: what the tick cost.
-    - `status`: 0 solved, 1 the last solution stood in, 2 the damped posture did (see `safety`);
-      `failures` counts ticks not solved, `failure` is the evidence of the last of them.
-    - `backend`: the solver; any object with the `Backend` protocol's `solve`.
-
-    `solver` is "osqp" (kept warm from tick to tick) or the name of an installed backend of
-    qpsolvers. Raises `InvalidInput` for any other.
+    Attributes:
+        robot, gains, friction: what it was made of.
+        dynamics: the robot's terms at the measured state.
+        com, torso, posture: tasks; `foot_tasks`: one per foot; `momentum`: in force where the gains
+            give it a weight.
+        sink: how fast a foot in contact goes down, m/s, for those that have come off the ground.
+        backend: the solver; any object with the `Backend` protocol's `solve`.
+        solution: the last tick's accelerations and wrenches; None before it.
+        times: what the last tick cost.
+        failure: the evidence of the last tick that was not solved; None while all were.
     """
 
     def __init__(
         self, robot: Robot, gains: TrackingGains, friction: float, solver: str = DEFAULT
     ) -> None:
+        """Make the tasks of a robot.
+
+        Args:
+            robot: from `load_robot`.
+            gains: weights and gains of the tasks.
+            friction: Coulomb friction between soles and ground.
+            solver: "osqp", kept warm from tick to tick, or an installed backend of qpsolvers.
+
+        Raises:
+            InvalidInput: there is no such solver.
+        """
         self.robot = robot
         self.gains = gains
         self.friction = friction
@@ -101,7 +113,11 @@ class WholeBodyController:
     def add_task(self, task: Task) -> None:
         """Add a task of one's own, from the next tick on.
 
-        Raises `InvalidInput` unless it has at least one row and a positive weight.
+        Args:
+            task: any object with the `Task` protocol.
+
+        Raises:
+            InvalidInput: it has no row, or no positive weight.
         """
         if not (task.rows >= 1 and 0.0 < task.weight < np.inf):
             raise InvalidInput(
@@ -112,9 +128,14 @@ class WholeBodyController:
         self._problems.clear()
 
     def update(self, q: Array, v: Array) -> None:
-        """Compute the dynamics at the measured state (Pinocchio's q and v).
+        """Compute the dynamics at the measured state.
 
-        Raises `StateError` when it is not finite.
+        Args:
+            q: (nq,) configuration, Pinocchio's conventions.
+            v: (nv,) velocity, Pinocchio's conventions.
+
+        Raises:
+            StateError: it is not finite.
         """
         start = perf_counter()
         check_state(q, v, self.robot)
@@ -122,9 +143,10 @@ class WholeBodyController:
         self.times.terms = perf_counter() - start
 
     def torques(self, normal_limit: Mapping[Foot, float]) -> Array:
-        """Return the joint torques (n,) in N·m, within the joints' limits.
+        """Return the joint torques (n,), N·m, within the joints' limits.
 
-        `normal_limit` names the feet in contact and the normal force (N) each may carry.
+        Args:
+            normal_limit: the feet in contact, and the normal force that each may carry, N.
         """
         start = perf_counter()
         problem = self.problem(normal_limit)
@@ -137,9 +159,9 @@ class WholeBodyController:
         return torques
 
     def wrench(self, foot: Foot) -> Array:
-        """Return the wrench (6,) that the last tick planned under a foot, zero for one in the air.
+        """Return the wrench (6,) that the last tick planned under a foot; zero for one in the air.
 
-        [force; moment about the sole's centre] on the robot, world axes, N and N·m.
+        [force; moment about the sole's centre], ground on robot, world axes, N, N·m.
         """
         if self.solution is None or foot not in self._contacts:
             return np.zeros(6)

@@ -97,7 +97,7 @@ def test_a_soles_wrench_is_about_its_centre(lab: tuple[WalkingController, Histor
     record, sole = controller.record, controller.robot.sole
     assert record is not None
     alone = (record.left_force[:, 2] > 300.0) & (record.right_force[:, 2] == 0.0)
-    fx, fy, fz, mx, my, _ = record.left_force[alone].T
+    _, _, fz, mx, my, _ = record.left_force[alone].T
     assert np.abs(-my / fz).max() < sole.half_length
     assert np.abs(mx / fz).max() < sole.half_width
     zmp = record.left_foot[alone, :2, 3] + np.column_stack([-my / fz, mx / fz])

@@ -40,9 +40,12 @@ class CondensedQP:
 
         minimise |factor^T w|^2 / 2 + gradient @ w  subject to  low <= constraints @ w <= high
 
-    `working_set` are columns of `TickProblem.limits`: torques first, then accelerations.
-    `factor` (lower triangular) and `gradient` are valid after `reduce`; `acceleration` (nv,) and
-    `torques` (n,) after `expand`.
+    Attributes:
+        problem: the tick's QP.
+        working_set: columns of `TickProblem.limits`: torques first, then accelerations.
+        constraints, low, high: (k, size), (k,), (k,).
+        factor, gradient: (size, size) lower triangular, (size,); valid after `reduce`.
+        acceleration, torques: (nv,), (n,); valid after `expand`.
     """
 
     def __init__(self, problem: TickProblem, working_set: Sequence[int]) -> None:
@@ -82,7 +85,8 @@ class CondensedQP:
     def reduce(self) -> None:
         """Eliminate the accelerations at the problem's current values.
 
-        Raises `NotSolvable` when they are not finite.
+        Raises:
+            NotSolvable: they are not finite.
         """
         p, m = self.problem, self.problem.m
         rows, residual = self._rows, self._residual
@@ -151,7 +155,8 @@ class CondensedQP:
     def crossed(self) -> list[int]:
         """Return the limits that the expanded solution crosses and that the working set lacks.
 
-        Raises `NotSolvable` when the solution is not finite.
+        Raises:
+            NotSolvable: the solution is not finite.
         """
         excess = np.subtract(self._values, self.problem.limits, out=self._excess)
         np.negative(excess[0], out=excess[0])

@@ -33,11 +33,12 @@ from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
 
 CONTACT_WEIGHT = 1e4
-"""Weight of a contact's acceleration: in walks soles err by 1e-4 m/s^2 (tasks weigh ~10) ..."""
+"""Weight of a contact's acceleration: beside tasks of 100 and less, soles in walks err by 1e-4
+m/s^2."""
 
 TILT_WEIGHT = 1.0
-"""... but for its roll and pitch, which yield: where an ankle is at its limit the sole tips over
-its edge, and a QP that insisted on a flat one would throw the whole robot up to have it."""
+"""Weight of a contact's roll and pitch, which yield: where an ankle is at its limit the sole tips
+over its edge, and a QP that insisted on a flat one would throw the whole robot up to have it."""
 
 LIMIT_WEIGHT = 1e3
 """Weight of the acceleration (rad/s^2) by which a joint misses what its limits ask."""
@@ -60,16 +61,20 @@ WRENCH_UNIT = np.array([100.0, 100.0, 100.0, 10.0, 10.0, 10.0])
 class TickProblem:
     """The QP of one tick for a set of contacts and tasks; `fill` writes the current state.
 
-    - `rows` (m, nv), `target` (m,), `inverse_weight` (m,): rows @ a = target with these
-      inverse weights (0: an equality), in the order tasks, contacts, base. The base's rows (last
-      six) have `wrench_map` (6, nf) @ f on their right-hand side.
-    - `contact_jacobian` (nf, nv): those of the rows that are the contacts'.
-    - `regularization_target`, `regularization_weight` (nv,): the accelerations drawn to, those of
-      the posture.
-    - `wrench_weight` (nf,) per N^2 or (N·m)^2.
-    - `contact_rows` (k, nf) @ f between `contact_low` and `contact_high` (k,).
-    - `limits` (2, 2 n): lowest and highest values of the joints' torques and, beside them, of
-      their accelerations.
+    Attributes:
+        robot, contacts, tasks, posture: what it is made of; `nv`, `n`, `nf`, `m`: numbers of
+            accelerations, of joints, of wrench components, and of rows.
+        rows, target, inverse_weight: (m, nv), (m,), (m,): rows @ a = target with these inverse
+            weights (0: an equality), in the order tasks, contacts, base. The base's rows, the last
+            six, have `wrench_map` (6, nf) @ f on their right-hand side.
+        contact_jacobian: (nf, nv) those of the rows that are the contacts'.
+        regularization_target, regularization_weight: (nv,) the accelerations drawn to, those of the
+            posture, and their weights.
+        wrench_weight: (nf,) per N^2 or (N·m)^2.
+        contact_rows: (k, nf) with contact_rows @ f between `contact_low` and `contact_high` (k,).
+        limits: (2, 2 n) lowest and highest values of the joints' torques and, beside them, of their
+            accelerations.
+        mass, bias: (nv, nv), (nv,) of the dynamics.
     """
 
     def __init__(
@@ -133,8 +138,11 @@ class TickProblem:
     ) -> None:
         """Write the QP of the current state.
 
-        `normal_limit` (N): the largest normal forces; `shares`: of the load on each contact;
-        `sink` (m/s): how fast a contact goes down, for those that have left the ground.
+        Args:
+            dynamics: at this state.
+            normal_limit: largest normal force of each contact, N.
+            shares: of the load on each contact, in their order.
+            sink: how fast a contact goes down, for those that have left the ground, m/s.
         """
         self.mass, self.bias = dynamics.mass, dynamics.bias
         for task, jacobian, target, inverse_weight in self._task_rows:

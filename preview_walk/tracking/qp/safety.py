@@ -47,8 +47,10 @@ class StateError(PreviewWalkError):
 class QPFailure(PreviewWalkError):
     """Evidence of a tick whose QP was not solved.
 
-    - `problem`: the QP, as a `qpsolvers.Problem`.
-    - `solution`: what the backend returned, None where it raised; `cause`: what it raised, or None.
+    Attributes:
+        problem: the QP, as a `qpsolvers.Problem`.
+        solution: what the backend returned; None where it raised.
+        cause: what it raised, or None.
     """
 
     def __init__(

@@ -44,9 +44,13 @@ TIGHT: Mapping[str, Mapping[str, Any]] = {
 class Solution:
     """What a backend returned for a tick.
 
-    `acceleration` (nv,), `wrench` (nf,) and joint `torques` (n,), in SI units; whether it `solved`
-    the QP; its `iterations` (0: no limit or edge of a contact was reached, so that none were
-    needed); in words, its `status`.
+    Attributes:
+        acceleration: (nv,) generalised accelerations, m/s^2, rad/s^2.
+        wrench: (nf,) of the contacts, in each sole's axes at its centre, N, N·m.
+        torques: (n,) of the joints, N·m.
+        solved: whether they solve the QP.
+        iterations: 0 where no limit or edge of a contact was reached, so that none were needed.
+        status: in words.
     """
 
     acceleration: Array
@@ -67,13 +71,16 @@ class Backend(Protocol):
 def make_backend(name: str) -> Backend:
     """Return the backend of this name: "osqp", kept warm between ticks, or one of qpsolvers.
 
-    Raises `InvalidInput` for a name that qpsolvers does not know or has no installed solver for.
+    Raises:
+        InvalidInput: qpsolvers does not know the name or has no installed solver for it.
     """
     if name == DEFAULT:
         return OsqpBackend()
     allowed = ", ".join([DEFAULT, *(n for n in qpsolvers.available_solvers if n != DEFAULT)])
     if name not in qpsolvers.available_solvers:
-        raise InvalidInput(f"solver must be one of those installed, {allowed}, got '{name}'.")
+        raise InvalidInput(
+            f"solver must be one of those installed, {allowed}, got '{name}'.", "solver"
+        )
     return QpsolversBackend(name)
 
 
