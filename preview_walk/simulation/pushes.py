@@ -103,7 +103,10 @@ class Pusher:
                 body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)
             if body < 0:
                 names = ", ".join(model.body(b).name for b in range(1, model.nbody))
-                raise InvalidInput(f"a push names the body '{push.body}'; the robot has {names}.")
+                raise InvalidInput(
+                    f"a push names the body '{push.body}'; the robot has {names}.",
+                    argument="pushes",
+                )
             self._pushes.append((push, body, np.array(push.force, dtype=float)))
         self._idle = True
         self._none = np.zeros(3)

@@ -21,6 +21,7 @@ from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import standing_configuration
 from preview_walk.simulation.pushes import Push
+from preview_walk.simulation.rates import require_rates
 from preview_walk.simulation.row import run_settings, tick_row
 from preview_walk.simulation.world import World, steps_per_tick
 from preview_walk.threads import one_thread
@@ -84,9 +85,10 @@ class Walk:
         visuals: bool = False,
     ) -> None:
         if not (np.isfinite(friction) and friction > 0.0):
-            raise InvalidInput(f"friction must be > 0, got {friction}.")
+            raise InvalidInput(f"friction must be > 0, got {friction}.", argument="friction")
         self.robot = robot
         self._substeps = steps_per_tick(physics_hz, control_hz)
+        require_rates(physics_hz, control_hz, TrackingGains() if gains is None else gains)
         self._dt = 1.0 / control_hz
         model = visual_model(robot) if visuals else robot.mj
         self.world = World(robot, model, physics_hz, friction, pushes)
@@ -184,7 +186,9 @@ class Walk:
         t, times = self.time, []
         for command, duration in commands:
             if not (np.isfinite(duration) and duration > 0.0):
-                raise InvalidInput(f"duration must be finite and > 0 s, got {duration}.")
+                raise InvalidInput(
+                    f"duration must be finite and > 0 s, got {duration}.", argument="duration"
+                )
             saturated(command, self.limits)
             times.append((t, command))
             t += duration

@@ -81,6 +81,7 @@ def steps_per_tick(physics_hz: int, control_hz: int) -> int:
     if physics_hz <= 0 or control_hz <= 0 or physics_hz % control_hz:
         raise InvalidInput(
             f"physics_hz must be a positive multiple of control_hz, "
-            f"got {physics_hz} and {control_hz}."
+            f"got {physics_hz} and {control_hz}.",
+            argument="physics_hz",
         )
     return physics_hz // control_hz

@@ -199,13 +199,21 @@ def test_ctrl_c_elsewhere_is_one_line(
     ("error", "sentence"),
     [
         (PreviewWalkError("it cannot walk."), "--robot: it cannot walk."),
-        (InvalidInput("friction must be > 0, got 0."), "--friction: friction must be > 0, got 0."),
-        (InvalidInput("a push names the body 'x'"), "--push: a push names the body 'x'."),
-        (InvalidInput("solver must be osqp"), "--solver: solver must be osqp."),
-        (InvalidInput("physics_hz must be 1"), "--physics-hz: physics_hz must be 1."),
-        (InvalidInput("step 3 lands 1 m ahead of"), "--step-length: step 3 lands 1 m ahead of."),
-        (InvalidInput("step 3 is 0.1 s in the air"), "--step-time: step 3 is 0.1 s in the air."),
-        (InvalidInput("step 3 turns 1 rad out"), "--turn: step 3 turns 1 rad out."),
+        (InvalidInput("it is slippery.", "friction"), "--friction: it is slippery."),
+        (InvalidInput("a push names the body 'x'", "pushes"), "--push: a push names the body 'x'."),
+        (InvalidInput("must be osqp", "solver"), "--solver: must be osqp."),
+        (InvalidInput("must be 1", "physics_hz"), "--physics-hz: must be 1."),
+        (
+            InvalidInput("too far ahead in the air", "step_length"),
+            "--step-length: too far ahead in the air.",
+        ),
+        (InvalidInput("too short a friction", "step_time"), "--step-time: too short a friction."),
+        (
+            InvalidInput("step 3 turns 0.5 rad (28.6 degrees) out", "turn"),
+            "--turn: step 3 turns 28.6 degrees out.",
+        ),
+        (InvalidInput("friction in words alone"), "--robot: friction in words alone."),
+        (InvalidInput("of nobody", "an argument of nobody"), "--robot: of nobody."),
     ],
 )
 def test_errors_of_the_library_name_the_option(
