@@ -33,7 +33,9 @@ OPTION_OF = {
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 
-_RADIANS = re.compile(r"(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?) rad\b(?: \(-?[\d.]+ degrees\))?")
+_RADIANS = re.compile(
+    r"(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?) rad\b(/s)?(?: \(-?[\d.]+ degrees(?:/s)?\))?"
+)
 
 
 @contextmanager
@@ -59,4 +61,6 @@ def naming(option: str) -> Iterator[None]:
 
 def in_degrees(sentence: str) -> str:
     """Return a sentence with its angles in degrees, as the options have them."""
-    return _RADIANS.sub(lambda found: f"{degrees(float(found[1])):.1f} degrees", sentence)
+    return _RADIANS.sub(
+        lambda found: f"{degrees(float(found[1])):.1f} degrees{found[2] or ''}", sentence
+    )
