@@ -130,7 +130,7 @@ OPTIONS = (
         "X,Y,YAW_DEG",
         numbers(
             "X,Y,YAW_DEG",
-            " (metres, metres, degrees)",
+            f" (metres, metres, degrees, up to {MAX_DISTANCE:g} either way)",
             lambda xs: max(map(abs, xs)) <= MAX_DISTANCE,
         ),
         "where the middle of the feet stands at first and where it faces (default 0,0,0)",

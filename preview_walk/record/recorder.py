@@ -20,8 +20,10 @@ from preview_walk.record.run_facts import RunFacts
 class Recorder:
     """Growing arrays for the fields of a record.
 
-    `sizes` gives nq, nv and nu; `capacity` is the number of ticks to make room for at first (it
-    doubles when full); `run` holds the facts that are known before the run.
+    Args:
+        run: the facts that are known before the run.
+        sizes: nq, nv and nu of the robot.
+        capacity: number of ticks to make room for at first; it doubles when full.
     """
 
     def __init__(self, run: RunFacts, sizes: Mapping[str, int], capacity: int = 4096) -> None:

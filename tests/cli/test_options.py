@@ -104,8 +104,8 @@ def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
         ),
         (
             "--start 1,2",
-            "--start: must be 3 numbers X,Y,YAW_DEG separated by commas (metres, metres, degrees), "
-            "got '1,2'.",
+            "--start: must be 3 numbers X,Y,YAW_DEG separated by commas (metres, metres, degrees, "
+            "up to 100000 either way), got '1,2'.",
         ),
         (
             "--friction -inf",
