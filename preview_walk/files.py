@@ -9,6 +9,9 @@ from pathlib import Path
 
 from preview_walk.errors import PreviewWalkError
 
+_PART = ".part-"
+"""How temporary names begin; the number of the process that writes the file follows."""
+
 
 class OutputError(PreviewWalkError, OSError):
     """A result that could not be written; says which file and why."""
@@ -30,7 +33,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
         OutputError: the file cannot be written (folder missing, no permission, disk full).
     """
     target = Path(path)
-    part = target.with_name(f".part-{os.getpid()}-{target.name}")
+    part = target.with_name(f"{_PART}{os.getpid()}-{target.name}")
     try:
         yield part
         # On disk before it takes the name: some file systems report a full disk only here.
@@ -43,3 +46,25 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink()
+
+
+def remove_stale_parts(folder: str | os.PathLike[str]) -> None:
+    """Remove from a folder the temporary files of processes that were killed.
+
+    Those of processes that live stay, and so does what cannot be removed.
+    """
+    for part in Path(folder).glob(f"{_PART}*-*"):
+        number = part.name.removeprefix(_PART).split("-")[0]
+        if number.isdecimal() and not _lives(int(number)):
+            with suppress(OSError):
+                part.unlink()
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except OSError:  # it belongs to somebody else
+        return True
+    return True

@@ -24,6 +24,9 @@ from preview_walk.types import Array
 _LOADED = 0.05
 """Share of the weight below which a foot's friction ratio says nothing."""
 
+_LABELS = 50
+"""So many joint names find room beside the torque map; of more only every second is written."""
+
 _COLUMNS = 1500
 """Columns of the torque map; more ticks than that are taken together by their maximum."""
 
@@ -90,7 +93,9 @@ def draw_torques(ax: Axes, record: Record) -> None:
     figure = ax.get_figure()
     if figure is not None:
         figure.colorbar(image, ax=ax, label="|torque| / limit", pad=0.01)
-    ax.set_yticks(range(len(names)), names, fontsize=max(4, min(8, 200 // max(1, len(names)))))
+    every = -(-len(names) // _LABELS) or 1
+    size = max(4, min(8, 200 // max(1, len(names))))
+    ax.set_yticks(range(0, len(names), every), names[::every], fontsize=size)
     mark_fall(ax, record)
     finish(ax, "Torques against their limits", "")
     ax.grid(False)

@@ -24,7 +24,10 @@ from preview_walk.record.record import Record
 def draw_axis(ax: Axes, record: Record, axis: int) -> None:
     """Draw CoM, DCM and ZMP, measured and planned, over time in the start's frame.
 
-    `axis` is 0 for x (along the first heading) or 1 for y (to its left), m.
+    Args:
+        ax: where to draw.
+        record: the run.
+        axis: 0 for x (along the first heading), 1 for y (to its left), m.
     """
     patches = shade_phases(ax, record)
     for name, points, ref, colour in (

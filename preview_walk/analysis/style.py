@@ -22,7 +22,7 @@ from preview_walk.record.record import Record
 from preview_walk.types import FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
 # Okabe and Ito's palette: told apart with any common colour vision, and in grey.
-COM, DCM, ZMP = "#0072B2", "#009E73", "#D55E00"
+COM, DCM, ZMP = "#0072B2", "#CC79A7", "#D55E00"
 FOOT_COLOURS: dict[Foot, str] = {"left": "#56B4E9", "right": "#E69F00"}
 _LEGEND_COLUMN = 1.6
 """Width in inches of a legend's entry."""
@@ -124,6 +124,7 @@ def mark_fall(ax: Axes, record: Record) -> None:
             ha="right",
             va="top",
             fontsize=8,
+            bbox={"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": "none"},
         )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Polygon
 
-from preview_walk.analysis.frame import from_start, sole_corners, start_frame
+from preview_walk.analysis.frame import from_start, start_frame
 from preview_walk.analysis.style import (
     COM,
     FOOT_COLOURS,
@@ -18,17 +18,20 @@ from preview_walk.analysis.style import (
     legend,
     planned_key,
 )
+from preview_walk.geometry.support import Sole
 from preview_walk.record.record import Record
 from preview_walk.types import FEET, Array
 
-_FALLBACK_SOLE = (0.1, 0.05)
+_USUAL_SOLE = Sole(0.1, 0.05)
+"""Drawn where a record does not know its robot's soles."""
 
 
 def planned_footprints(record: Record) -> list[tuple[int, Array, float, float]]:
-    """Return (foot, pose (4, 4), land, next lift of that foot) of every sole of the plan.
+    """Return every sole of the plan, as stepped on or, ahead, as the last plan has it.
 
-    Those that were stepped on come from the plan in force at the time, the others from the last
-    plan. Times in s; the last lift is infinite.
+    Returns:
+        Tuples of the foot (0 left, 1 right), its pose (4, 4) in the world (m), when it lands and
+        when that foot lifts again (s; infinite for the last).
     """
     if not len(record.plans):
         return []
@@ -62,13 +65,13 @@ def measured_footprints(record: Record) -> list[tuple[int, Array]]:
 def draw_top_view(ax: Axes, record: Record) -> None:
     """Draw soles (planned dashed, measured filled), ZMP and CoM in the start's frame, m."""
     known = bool(np.isfinite(record.run.sole).all())
-    half_length, half_width = record.run.sole if known else _FALLBACK_SOLE
+    sole = Sole(*record.run.sole) if known else _USUAL_SOLE
     for foot, pose in measured_footprints(record):
-        corners = from_start(record, sole_corners(pose, half_length, half_width))
+        corners = from_start(record, sole.corners(pose)[:, :2])
         colour = FOOT_COLOURS[FEET[foot]]
         ax.add_patch(Polygon(corners, facecolor=colour, alpha=0.35, edgecolor="none"))
     for _, pose, _, _ in planned_footprints(record):
-        corners = from_start(record, sole_corners(pose, half_length, half_width))
+        corners = from_start(record, sole.corners(pose)[:, :2])
         ax.add_patch(Polygon(corners, fill=False, edgecolor="0.3", zorder=2, **PLANNED))
     for name, points, ref, colour in (
         ("ZMP", record.zmp, record.zmp_ref, ZMP),

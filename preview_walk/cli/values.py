@@ -64,5 +64,5 @@ def named_numbers(
 
 
 def text(allowed: str) -> Reader:
-    """Return a reader of any text that is not empty."""
-    return value(allowed, str, bool)
+    """Return a reader of any text that is not empty and that a file's name may hold."""
+    return value(allowed, str, lambda found: bool(found) and "\0" not in found)

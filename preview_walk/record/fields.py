@@ -15,9 +15,14 @@ from preview_walk.types import Array
 class FieldInfo:
     """One array of a record.
 
-    `shape` is the shape of a tick's value: numbers, or the names nq, nv, nu of sizes that depend on
-    the robot. `timing` marks what a stopwatch measured, the only thing in which two runs of the
-    same walk differ.
+    Attributes:
+        shape: of a tick's value: numbers, or the names nq, nv, nu of sizes that depend on the
+            robot.
+        unit: of its values.
+        doc: its meaning.
+        dtype: type of its numbers.
+        timing: whether a stopwatch measured it, the only thing in which two runs of the same walk
+            differ.
     """
 
     shape: tuple[int | str, ...]

@@ -16,15 +16,20 @@ from preview_walk.record.plan_writer import PlanWriter
 from preview_walk.record.record import Record
 from preview_walk.record.run_facts import RunFacts
 
+ROOM = 4096
+"""Ticks that a recorder makes room for at first; it doubles when full."""
+
 
 class Recorder:
     """Growing arrays for the fields of a record.
 
-    `sizes` gives nq, nv and nu; `capacity` is the number of ticks to make room for at first (it
-    doubles when full); `run` holds the facts that are known before the run.
+    Args:
+        run: the facts that are known before the run.
+        sizes: nq, nv and nu of the robot.
+        capacity: number of ticks to make room for at first; it doubles when full.
     """
 
-    def __init__(self, run: RunFacts, sizes: Mapping[str, int], capacity: int = 4096) -> None:
+    def __init__(self, run: RunFacts, sizes: Mapping[str, int], capacity: int = ROOM) -> None:
         self._run = run
         self._plans = PlanWriter()
         self._plan: FootstepPlan | None = None
@@ -35,6 +40,15 @@ class Recorder:
             # What is never written shows: nan, or -1 where there is no nan.
             empty = np.nan if info.dtype is np.float64 else -1
             self._arrays[name] = np.full(shape, empty, dtype=info.dtype)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the room that nothing is written in yet."""
+        return {**vars(self), "_arrays": {n: a[: self._n] for n, a in self._arrays.items()}}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the rows, and make room of its own: what comes to a worker may be read-only."""
+        vars(self).update(state)
+        self._grow()
 
     def __len__(self) -> int:
         return self._n
@@ -70,7 +84,8 @@ class Recorder:
     def _grow(self) -> None:
         for name, array in self._arrays.items():
             empty = np.nan if array.dtype == np.float64 else -1
-            self._arrays[name] = np.concatenate([array, np.full_like(array, empty)])
+            more = np.full((max(len(array), ROOM), *array.shape[1:]), empty, dtype=array.dtype)
+            self._arrays[name] = np.concatenate([array, more])
 
 
 _PACKAGES = ("preview-walk", "mujoco", "pin", "osqp", "qpsolvers", "control", "numpy", "scipy")

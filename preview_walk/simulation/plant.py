@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push
 from preview_walk.terrain.ground import Ground
@@ -63,24 +62,3 @@ class Plant(Protocol):
 
     def step(self, torques: Array, steps: int) -> None:
         """Hold the joint torques (n,), N·m, for a number of physics steps."""
-
-
-def steps_per_tick(timestep: float, control_hz: float) -> int:
-    """Return the physics steps of one control tick.
-
-    Args:
-        timestep: of the physics, s.
-        control_hz: control ticks per second.
-
-    Raises:
-        InvalidInput: a rate is not positive, or physics does not make a whole number of steps in a
-            tick.
-    """
-    steps = round(1.0 / (control_hz * timestep)) if control_hz > 0.0 else 0
-    if steps < 1 or abs(steps * control_hz * timestep - 1.0) > 1e-9:
-        raise InvalidInput(
-            "physics_hz must be a positive multiple of control_hz, "
-            f"got {1.0 / timestep:g} and {control_hz:g}.",
-            "control_hz",
-        )
-    return steps

@@ -21,8 +21,9 @@ from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import standing_configuration
 from preview_walk.simulation.commands import Command, VelocityCommands
 from preview_walk.simulation.fall import fall_reason
-from preview_walk.simulation.plant import Plant, steps_per_tick
+from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push
+from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
 from preview_walk.simulation.world import plant_of
@@ -119,7 +120,9 @@ class Walk:
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
         self.plant = plant_of(robot, com_height, **own)
         self.robot = self.plant.robot
+        gains = TrackingGains() if gains is None else gains
         self._substeps = steps_per_tick(self.plant.timestep, control_hz)
+        require_rates(1.0 / self.plant.timestep, control_hz, gains)
         self._dt = 1.0 / control_hz
         q = standing_configuration(self.robot, plan[0].pose, plan[1].pose)
         self.plant.place(q, plan.start)

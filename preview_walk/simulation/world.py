@@ -63,7 +63,7 @@ class World:
         """
         for name, value in (("physics_hz", physics_hz), ("friction", friction)):
             if not (np.isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be finite and > 0, got {value}.", name)
+                raise InvalidInput(f"{name} must be > 0, got {value}.", name)
         self.robot = robot
         self.friction = friction
         self.ground: Ground = FlatGround()

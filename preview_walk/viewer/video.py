@@ -37,7 +37,14 @@ def frames(
 
     The recorded configurations are shown, nothing is simulated again. The camera walks along.
 
-    Raises `RenderError` where there is no OpenGL to render with.
+    Args:
+        record: the walk.
+        robot: the one that walked.
+        times: when each picture is of, s.
+        size: height and width of a picture, pixels.
+
+    Raises:
+        RenderError: there is no OpenGL to render with.
     """
     model = visual_model(robot)
     model.vis.global_.offheight, model.vis.global_.offwidth = size
@@ -76,7 +83,8 @@ def _smooth(path: Array, ticks: int) -> Array:
 def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> Path:
     """Write an mp4 of a recorded walk in real time and return its path.
 
-    Raises `RenderError` where it cannot be rendered or encoded.
+    Raises:
+        RenderError: it cannot be rendered or encoded.
     """
     import imageio.v2 as imageio
 

@@ -5,17 +5,27 @@ from __future__ import annotations
 import dataclasses
 import re
 import sys
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 from matplotlib.patches import Polygon
 from synthetic_walk import DT, FOOT_ERROR, walk_record
 
 from preview_walk.analysis.phase_plots import contact, timing_errors
-from preview_walk.analysis.plots import PLOTS, plot, plot_all, save_plot, top_view, torques
-from preview_walk.analysis.style import new_figure, spans
+from preview_walk.analysis.plots import (
+    PLOTS,
+    overview,
+    plot,
+    plot_all,
+    save_plot,
+    top_view,
+    torques,
+)
+from preview_walk.analysis.style import COM, DCM, ZMP, darker, new_figure, spans
 from preview_walk.analysis.top_view import draw_top_view, measured_footprints, planned_footprints
 from preview_walk.errors import InvalidInput
 from preview_walk.record.record import Record
@@ -35,6 +45,27 @@ def test_every_plot_is_a_picture(record: Record, tmp_path: Path) -> None:
         assert picture.shape[1] > 1000
         assert np.ptp(picture[..., :3]) > 0.5
     assert len(list(tmp_path.iterdir())) == len(paths)
+
+
+@pytest.mark.parametrize("joints", [32, 43, 60, 110])
+def test_joint_names_do_not_overlap(record: Record, joints: int) -> None:
+    names = tuple(f"leg_left_{k}_joint" for k in range(joints))
+    tau = np.ones((len(record), joints))
+    many = dataclasses.replace(record, tau=tau).with_run(joint_names=names, tau_max=(2.0,) * joints)
+    figure = overview(many)
+    figure.canvas.draw()
+    (axes,) = (ax for ax in figure.axes if "Torques" in ax.get_title(loc="left"))
+    boxes = [label.get_window_extent() for label in axes.get_yticklabels()]
+    assert len(boxes) >= 30
+    for above, below in pairwise(boxes):
+        assert below.y1 <= above.y0
+
+
+def test_com_dcm_and_zmp_are_told_apart() -> None:
+    """The lines are far from each other in colour, and the dashes over them too."""
+    for shade in (to_rgb, darker):
+        for a, b in combinations((COM, DCM, ZMP), 2):
+            assert np.linalg.norm(np.subtract(shade(a), shade(b))) > 0.3
 
 
 def test_no_global_state_of_pyplot_is_touched(record: Record, tmp_path: Path) -> None:

@@ -44,7 +44,8 @@ def test_every_option_is_read() -> None:
         "--robot my.xml --steps 7 --step-length -0.1 --step-time 0.62 --double-support-ratio 0.05 "
         "--turn -9 --start -100,.5,137 --friction 0.5 --push 2,0.2,-150,0,1e1 "
         "--push=3,0.1,0,-5,0 --pushes impulse=20,every=3 --seed 9 --physics-hz 2000 "
-        "--control-hz 1000 --solver daqp --out there --video --view --list-robots --inspect my.urdf"
+        "--control-hz 1000 --solver daqp --out there --no-plots --video --view --list-robots "
+        "--inspect my.urdf"
     )
     assert parse(line.split()) == cli_options.Options(
         robot="my.xml",
@@ -67,6 +68,7 @@ def test_every_option_is_read() -> None:
         view=True,
         list_robots=True,
         inspect="my.urdf",
+        no_plots=True,
     )
 
 
@@ -102,8 +104,8 @@ def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
         ),
         (
             "--start 1,2",
-            "--start: must be 3 numbers X,Y,YAW_DEG separated by commas (metres, metres, degrees), "
-            "got '1,2'.",
+            "--start: must be 3 numbers X,Y,YAW_DEG separated by commas (metres, metres, degrees, "
+            "up to 100000 either way), got '1,2'.",
         ),
         (
             "--friction -inf",
@@ -112,7 +114,12 @@ def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
         (
             "--push 1,0,5,5,5",
             "--push: must be 5 numbers T,DURATION,FX,FY,FZ separated by commas (seconds from 0 on, "
-            "seconds above 0, newtons), got '1,0,5,5,5'.",
+            "seconds above 0, newtons up to 10000 either way), got '1,0,5,5,5'.",
+        ),
+        (
+            "--push 1,0.2,0,-1e5,0",
+            "--push: must be 5 numbers T,DURATION,FX,FY,FZ separated by commas (seconds from 0 on, "
+            "seconds above 0, newtons up to 10000 either way), got '1,0.2,0,-1e5,0'.",
         ),
         (
             "--turn 91",
@@ -120,8 +127,13 @@ def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
         ),
         (
             "--velocity 1,0",
-            "--velocity: must be 3 numbers VX,VY,YAWRATE_DEG separated by commas (m/s forward, m/s "
-            "left, degrees per second left), got '1,0'.",
+            "--velocity: must be 3 numbers VX,VY,YAWRATE_DEG separated by commas (m/s forward and "
+            "m/s left, up to 10 either way, degrees per second left, up to 720), got '1,0'.",
+        ),
+        (
+            "--velocity -1e308,0,0",
+            "--velocity: must be 3 numbers VX,VY,YAWRATE_DEG separated by commas (m/s forward and "
+            "m/s left, up to 10 either way, degrees per second left, up to 720), got '-1e308,0,0'.",
         ),
         (
             "--velocity 1,0,0 --duration 0",
@@ -138,13 +150,13 @@ def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:
         ),
         (
             "--pushes every=3",
-            "--pushes: must be every=S,impulse=NS (seconds, 0.2 or more; newton-seconds above 0), "
-            "got 'every=3'.",
+            "--pushes: must be every=S,impulse=NS (seconds, 0.2 or more; newton-seconds above 0 "
+            "and up to 2000), got 'every=3'.",
         ),
         (
             "--pushes every=3,impulse=nan",
-            "--pushes: must be every=S,impulse=NS (seconds, 0.2 or more; newton-seconds above 0), "
-            "got 'every=3,impulse=nan'.",
+            "--pushes: must be every=S,impulse=NS (seconds, 0.2 or more; newton-seconds above 0 "
+            "and up to 2000), got 'every=3,impulse=nan'.",
         ),
         ("--control-hz 0", "--control-hz: must be a whole number from 1 to 100000, got '0'."),
         (

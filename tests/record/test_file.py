@@ -158,6 +158,17 @@ def test_a_bomb_takes_no_memory(parts: PARTS, tmp_path: Path) -> None:
     assert peak < 10e6
 
 
+def test_a_shape_that_lies_takes_no_memory(parts: PARTS, tmp_path: Path) -> None:
+    lie = {"com.npy": header((40_000_000, 3)) + bytes(24)}
+    path = write(tmp_path / "x.npz", {**parts, **lie})
+    tracemalloc.start()
+    with pytest.raises(InvalidInput, match="states the shape"):
+        Record.load(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 10e6
+
+
 def test_a_size_that_the_directory_lies_about_is_not_believed(parts: PARTS, tmp_path: Path) -> None:
     """The directory says little, the stream holds much: no more is read than was said."""
     path = write(tmp_path / "x.npz", {**parts, "time.npy": npy(np.zeros(5_000_000))})

@@ -10,7 +10,7 @@ import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.plant import steps_per_tick
+from preview_walk.simulation.rates import steps_per_tick
 from preview_walk.simulation.world import World
 from preview_walk.types import FEET, Array
 

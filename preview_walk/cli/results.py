@@ -1,0 +1,103 @@
+"""The folder of results: made before the walk, filled after it, most precious first."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from pathlib import Path
+
+from preview_walk.cli.interruption import Interruption
+from preview_walk.cli.naming import naming
+from preview_walk.errors import PreviewWalkError
+from preview_walk.files import OutputError, remove_stale_parts, whole_file
+from preview_walk.record.record import Record
+from preview_walk.robots.robot import Robot
+
+RECORD, SUMMARY, OVERVIEW, FILM = "record.npz", "summary.json", "walk.png", "walk.mp4"
+Writers = Mapping[str, Callable[[Path], object]]
+"""What writes each file, by its name."""
+
+
+def result_names() -> tuple[str, ...]:
+    """Return the names of all files that a run may write, most precious first."""
+    from preview_walk.analysis.plots import PLOTS
+
+    return (RECORD, SUMMARY, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM)
+
+
+def make_folder(folder: Path, names: Iterable[str]) -> None:
+    """Make the folder for files of these names, and clear away what a killed run left in it.
+
+    Raises:
+        OutputError: it cannot be made or written to, or a name is taken by a folder.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {folder}: {error.strerror}.") from error
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(f"cannot write to the folder {folder}: Permission denied.")
+    for name in names:
+        if (folder / name).is_dir():
+            raise OutputError(f"cannot write {folder / name}: Is a directory.")
+    remove_stale_parts(folder)
+
+
+def writers_of(
+    record: Record, robot: Robot, *, pictures: bool, film: bool
+) -> tuple[Writers, Writers]:
+    """Return what writes the figures of a run, and what writes its pictures."""
+    from preview_walk.analysis.plots import PLOTS, plot, save_plot
+
+    figures = {RECORD: record.save, SUMMARY: record.summary().write}
+    drawn: dict[str, Callable[[Path], object]] = {}
+    if pictures and len(record):
+        drawn[OVERVIEW] = partial(plot, record)
+        drawn |= {f"{name}.png": partial(save_plot, record, name) for name in PLOTS}
+    if film and len(record):
+        drawn[FILM] = partial(_film, record, robot)
+    return figures, drawn
+
+
+def write_results(
+    folder: Path, figures: Writers, pictures: Writers, interruption: Interruption
+) -> tuple[list[str], PreviewWalkError | None]:
+    """Write the figures whatever signals come, then the pictures until one does.
+
+    Returns:
+        The names of the files written, and the first failure: where a disk has no room for the
+        record, it may have for the figures.
+    """
+    interruption.hold()
+    written: list[str] = []
+    failure: PreviewWalkError | None = None
+    try:
+        for name in result_names():
+            _remove(folder / name)  # nothing may stay that could be taken for a part of this run
+        for name, write in {**figures, **pictures}.items():
+            if name in pictures:
+                interruption.release()
+            try:
+                write(folder / name)
+                written.append(name)
+            except PreviewWalkError as error:
+                failure = failure or error
+            interruption.hold()
+    except KeyboardInterrupt:
+        pass  # noted by `interruption`; what is written is whole, and stays
+    return written, failure
+
+
+def _remove(path: Path) -> None:
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot replace {path}: {error.strerror}.") from error
+
+
+def _film(record: Record, robot: Robot, path: Path) -> None:
+    from preview_walk.viewer.video import render_video
+
+    with naming("--video"), whole_file(path) as part:
+        render_video(record, robot, part)

@@ -1,0 +1,135 @@
+"""One run of the command: plan, walk, print the table, write the folder."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any
+
+import preview_walk as pw
+from preview_walk.cli.interruption import Interruption
+from preview_walk.cli.naming import naming
+from preview_walk.cli.option_table import PUSH_TIME
+from preview_walk.cli.options import Options
+from preview_walk.cli.progress import progress_bar
+from preview_walk.cli.results import make_folder, result_names, write_results, writers_of
+from preview_walk.cli.streams import complain, say
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.record.record import Record
+from preview_walk.robots.robot import Robot
+from preview_walk.simulation.pushes import Push, random_pushes
+
+RAMP_LENGTH = 0.1
+"""The walk speeds up and slows down by about so much a step (m)."""
+
+
+def run(options: Options, command: str, interruption: Interruption) -> Record:
+    """Walk as the options say, print the table and write the folder; return the record.
+
+    Args:
+        options: what is asked for.
+        command: the command line, kept with the record.
+        interruption: receives the signals.
+
+    Raises:
+        PreviewWalkError: bad input, named by its option, or a result that cannot be written.
+    """
+    with naming("--view"):
+        _require_screen(options.view)
+    with naming("--robot"):
+        robot = pw.load_robot(options.robot)
+    with naming("--step-length"):
+        plan = None if options.commands else _plan(options, robot)
+    end = sum(duration for _, duration in options.commands) if plan is None else plan.end
+    with naming("--push"):
+        pushes = _pushes(options, end)
+    with naming("--pushes"):
+        pushes += _random_pushes(options, end)
+    make_folder(options.out, result_names())
+    record = _walk(options, robot, plan, pushes, interruption).with_run(command=command)
+    interruption.hold()
+    stopped = record.run.interrupted
+    if stopped:
+        span = f"{len(record) * record.dt:.2f} s"
+        say(f"Stopped by {interruption.name} after {span}; this is the walk so far.")
+    say(str(record.summary()))
+    figures, pictures = writers_of(
+        record, robot, pictures=not options.no_plots, film=options.video and not stopped
+    )
+    written, failure = write_results(options.out, figures, pictures, interruption)
+    say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
+    if failure is not None:
+        raise failure
+    if len(written) < len(figures) + len(pictures):
+        complain(f"stopped by {interruption.name} while writing; the other pictures are left out.")
+    return record
+
+
+def _walk(
+    options: Options,
+    robot: Robot,
+    plan: FootstepPlan | None,
+    pushes: tuple[Push, ...],
+    interruption: Interruption,
+) -> Record:
+    """Walk along the plan, or by the commands where there is none; return the record."""
+    given = {
+        "friction": options.friction,
+        "physics_hz": options.physics_hz,
+        "control_hz": options.control_hz,
+        "solver": options.solver,
+    }
+    with naming("--robot"), progress_bar() as show:
+
+        def progress(time: float, end: float) -> None:
+            interruption.hold()
+            interruption.check()
+            show(time, end)
+
+        settings: Any = {
+            "pushes": pushes,
+            "seed": options.seed,
+            "progress": progress,
+            "viewer": options.view,
+            **{name: value for name, value in given.items() if value is not None},
+        }
+        if plan is None:
+            return pw.simulate_commands(robot, options.commands, start=options.start, **settings)
+        return pw.simulate(robot, plan, **settings)
+
+
+def _plan(options: Options, robot: Robot) -> FootstepPlan:
+    """Return the footsteps of a straight walk or an arc."""
+    planner = pw.FootstepPlanner(
+        step_length=options.step_length,
+        step_width=robot.step_width,
+        step_time=options.step_time,
+        double_support_ratio=options.double_support_ratio,
+    )
+    ramp = round(abs(options.step_length) / RAMP_LENGTH)
+    return planner.generate_footsteps(options.steps, options.start, turn=options.turn, ramp=ramp)
+
+
+def _pushes(options: Options, end: float) -> tuple[Push, ...]:
+    """Return the pushes asked for one by one; the walk ends at `end` (s)."""
+    for time, _, _ in options.pushes:
+        if time >= end:
+            raise InvalidInput(f"must begin before the walk ends at {end:.2f} s, got {time:g} s.")
+    return tuple(Push(time, duration, force) for time, duration, force in options.pushes)
+
+
+def _random_pushes(options: Options, end: float) -> tuple[Push, ...]:
+    """Return the random series of pushes; the walk ends at `end` (s)."""
+    if options.random_pushes is None:
+        return ()
+    every, impulse = options.random_pushes
+    if every >= end:
+        raise InvalidInput(f"must begin before the walk ends at {end:.2f} s, got every={every:g}.")
+    return random_pushes(every, impulse, PUSH_TIME, end, options.seed)
+
+
+def _require_screen(view: bool) -> None:
+    screens = ("DISPLAY", "WAYLAND_DISPLAY")
+    if view and sys.platform.startswith("linux") and not any(map(os.environ.get, screens)):
+        raise InvalidInput("needs a screen, and there is none; allowed without one is --video.")

@@ -1,0 +1,60 @@
+"""The rates of physics and control: how they go together, and how slow they may be."""
+
+from __future__ import annotations
+
+from preview_walk.errors import InvalidInput
+from preview_walk.tracking.gains import TrackingGains
+
+MIN_PHYSICS_HZ = 100
+"""MuJoCo's contacts give way with a time constant of 0.02 s; with less than two steps in it they
+turn soft, and the robot sinks in."""
+
+
+def steps_per_tick(timestep: float, control_hz: float) -> int:
+    """Return the physics steps of one control tick.
+
+    Args:
+        timestep: of the physics, s.
+        control_hz: control ticks per second.
+
+    Raises:
+        InvalidInput: a rate is not positive, or physics does not make a whole number of steps in a
+            tick.
+    """
+    steps = round(1.0 / (control_hz * timestep)) if control_hz > 0.0 else 0
+    if steps < 1 or abs(steps * control_hz * timestep - 1.0) > 1e-9:
+        raise InvalidInput(
+            "physics_hz must be a positive multiple of control_hz, "
+            f"got {1.0 / timestep:g} and {control_hz:g}.",
+            "control_hz",
+        )
+    return steps
+
+
+def require_rates(physics_hz: float, control_hz: float, gains: TrackingGains) -> None:
+    """Do nothing if the robot can be balanced at these rates.
+
+    A critically damped spring of frequency f (rad/s) whose force is held for a tick of T seconds is
+    stable while f T < 1. Half of that is asked for.
+
+    Args:
+        physics_hz: steps of the physics per second.
+        control_hz: ticks of the controller per second.
+        gains: of the tracker.
+
+    Raises:
+        InvalidInput: a rate is lower; says the bound.
+    """
+    fastest = max(gains.dcm, gains.height, gains.foot, gains.torso, gains.posture, gains.momentum)
+    if not control_hz >= 2.0 * fastest:
+        raise InvalidInput(
+            f"control_hz must be at least {2.0 * fastest:g}, twice the fastest feedback "
+            f"({fastest:g} rad/s), to balance the robot, got {control_hz}.",
+            argument="control_hz",
+        )
+    if not physics_hz >= MIN_PHYSICS_HZ:
+        raise InvalidInput(
+            f"physics_hz must be at least {MIN_PHYSICS_HZ} for the feet to stand firm, "
+            f"got {physics_hz}.",
+            argument="physics_hz",
+        )
