@@ -10,23 +10,23 @@ MIN_PHYSICS_HZ = 100
 turn soft, and the robot sinks in."""
 
 
-def steps_per_tick(timestep: float, control_hz: float) -> int:
+def steps_per_tick(physics_hz: float, control_hz: float) -> int:
     """Return the physics steps of one control tick.
 
     Args:
-        timestep: of the physics, s.
-        control_hz: control ticks per second.
+        physics_hz: steps of the physics per second.
+        control_hz: ticks of the controller per second.
 
     Raises:
         InvalidInput: a rate is not positive, or physics does not make a whole number of steps in a
             tick.
     """
-    steps = round(1.0 / (control_hz * timestep)) if control_hz > 0.0 else 0
-    if steps < 1 or abs(steps * control_hz * timestep - 1.0) > 1e-9:
+    steps = round(physics_hz / control_hz) if min(physics_hz, control_hz) > 0.0 else 0
+    if steps < 1 or abs(steps * control_hz / physics_hz - 1.0) > 1e-9:
         raise InvalidInput(
             "physics_hz must be a positive multiple of control_hz, "
-            f"got {1.0 / timestep:g} and {control_hz:g}.",
-            "control_hz",
+            f"got {physics_hz:g} and {control_hz:g}.",
+            "physics_hz",
         )
     return steps
 

@@ -121,8 +121,9 @@ class Walk:
         self.plant = plant_of(robot, com_height, **own)
         self.robot = self.plant.robot
         gains = TrackingGains() if gains is None else gains
-        self._substeps = steps_per_tick(self.plant.timestep, control_hz)
-        require_rates(1.0 / self.plant.timestep, control_hz, gains)
+        rate = 1.0 / self.plant.timestep
+        self._substeps = steps_per_tick(rate, control_hz)
+        require_rates(rate, control_hz, gains)
         self._dt = 1.0 / control_hz
         q = standing_configuration(self.robot, plan[0].pose, plan[1].pose)
         self.plant.place(q, plan.start)
