@@ -112,7 +112,7 @@ class PredictiveServo(PreviewServo):
         design, plant = self.design, self.design.plant
         shape = (design.horizon + 1, len(plant.C))
         r = self._window("window", window, *shape).reshape(shape)
-        w = np.zeros((design.horizon, plant.E.shape[1]))
+        w: Array = np.zeros((design.horizon, plant.E.shape[1]))
         if disturbance is not None:
             w = self._window("disturbance", disturbance, *w.shape).reshape(w.shape)
         if y_limits is None:
@@ -134,7 +134,7 @@ class PredictiveServo(PreviewServo):
         action = self._reference.run(r.T[None], 1)[0].T + r @ design.present_gain.T
         push = np.zeros((len(r), len(state.x)))
         if self._disturbance is not None:
-            held = np.vstack([w, w[-1:]])
+            held = np.vstack([w, w[-1:] if design.integral else 0.0 * w[-1:]])
             action = action + self._disturbance.run(held.T[None])[0].T
             push = held @ design.plant.E.T
         start = state.x
