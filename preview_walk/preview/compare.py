@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import finite_vector, sequence, shown
+from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.limits import Limits, output_limits
@@ -141,7 +141,17 @@ def compare(
         InvalidInput: If a shape is wrong, a value not finite or a law unknown.
 
     """
+    require_type("design", design, PreviewDesign)
     limits = Limits() if limits is None else limits
+    require_type("limits", limits, Limits)
+    if (
+        isinstance(laws, str)
+        or not isinstance(laws, Sequence)
+        or not set(map(str, laws)) <= set(LAWS)
+    ):
+        raise InvalidInput(
+            f"expected laws out of {', '.join(LAWS)}, got {shown(laws)}.", argument="laws"
+        )
     r = sequence("reference", reference, len(design.plant.C))
     w = read_disturbance(design, disturbance, len(r))
     start = finite_vector("x0", x0, np.zeros(len(design.plant.A)))
@@ -167,10 +177,6 @@ def _servo(name: str, design: PreviewDesign, limits: Limits) -> PreviewServo:
         design = preview_gains(design.plant, *weights, 0, integral=False)
     elif name == "LQI":
         design = preview_gains(design.plant, *weights, 0)
-    elif name != "preview":
-        raise InvalidInput(
-            f"expected laws out of {', '.join(LAWS)}, got {shown(name)}.", argument="laws"
-        )
     return PreviewServo(design, u_min=limits.u_min, u_max=limits.u_max)
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import require_type
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.least_norm import ROUNDS, TOLERANCE, least_norm
 from preview_walk.preview.limits import Limits, output_limits
@@ -60,6 +61,7 @@ class PredictiveServo(PreviewServo):
             InvalidInput: If limits contradict each other or a shape is wrong.
 
         """
+        require_type("limits", limits, Limits)
         super().__init__(
             design, u_min=limits.u_min, u_max=limits.u_max, observer_gain=observer_gain
         )
@@ -109,6 +111,7 @@ class PredictiveServo(PreviewServo):
             InvalidInput: If a window has another shape or holds NaN or infinity.
 
         """
+        require_type("state", state, ServoState)
         design, plant = self.design, self.design.plant
         shape = (design.horizon + 1, len(plant.C))
         r = self._window("window", window, *shape).reshape(shape)
