@@ -81,18 +81,22 @@ class Comparison:
 
     def __str__(self) -> str:
         """Return the table: a row for each law."""
-        titles = ("law", "rms error", "max error", "rms u", "max |u|", "rms du", "outside",
-                  "us/sample", "failures")  # fmt: skip
-        lines = ["".join(f"{title:>12}" for title in titles)]
+        outputs = self.design.plant.outputs
+        errors = [f" {name}" for name in outputs] if len(outputs) > 1 else [" error"]
+        titles = [f"{kind}{error}" for kind in ("rms", "max") for error in errors]
+        titles += ["rms u", "max |u|", "rms du", "outside", "us/sample", "failures"]
+        widths = [max(11, len(title) + 2) for title in titles]
+        lines = [f"{'law':>8}" + "".join(f"{t:>{w}}" for t, w in zip(titles, widths, strict=True))]
         for result in self.results:
             error, u = result.run.error, result.run.u
             change = np.diff(u, axis=0, prepend=0.0)
-            numbers = (
-                _rms(error), np.abs(error).max(), _rms(u), np.abs(u).max(), _rms(change),
-                result.outside, 1e6 * result.seconds,
-            )  # fmt: skip
-            cells = "".join(f"{number:>12.4g}" for number in numbers)
-            lines.append(f"{result.name:>12}{cells}{result.failures:>12}")
+            numbers = [
+                *(_rms(column) for column in error.T), *np.abs(error).max(axis=0), _rms(u),
+                np.abs(u).max(), _rms(change), result.outside, 1e6 * result.seconds,
+                result.failures,
+            ]  # fmt: skip
+            cells = "".join(f"{x:>{w}.4g}" for x, w in zip(numbers, widths, strict=True))
+            lines.append(f"{result.name:>8}{cells}")
         return "\n".join(lines)
 
     def plot(self, path: str | os.PathLike[str]) -> Path:

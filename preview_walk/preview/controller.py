@@ -183,16 +183,16 @@ class PreviewController:
         """
         try:
             inside = 0.0 <= tau <= self.dt * (1.0 + 1e-9)
-        except (TypeError, ValueError):
+            (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
+            jx, jy = following.array[3].tolist()
+        except (AttributeError, TypeError, ValueError):
+            require_type("state", state, ComState)
+            require_type("following", following, ComState)
             inside = False
         if not inside:
             raise InvalidInput(
                 f"expected tau to be 0 to {self.dt} s, got {shown(tau)}.", argument="tau"
             )
-        require_type("state", state, ComState)
-        require_type("following", following, ComState)
-        (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
-        jx, jy = following.array[3].tolist()
         half, sixth = 0.5 * tau, tau / 3.0
         bx, by = ax + tau * jx, ay + tau * jy
         px = cx + tau * (vx + half * (ax + sixth * jx))
