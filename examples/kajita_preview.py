@@ -71,7 +71,8 @@ def main() -> None:
     steady = preview_effect(design, reference[:, 0], horizons)[:, 0]
     error = axes[0, 1]
     error.semilogy(horizons * DT, 1e3 * steady)
-    error.axvline(2.0 * np.sqrt(Z_C / 9.81), color="grey", linestyle=":", label="shortest allowed")
+    shortest = 2.0 * np.sqrt(Z_C / 9.81)
+    error.axvline(shortest, color="grey", linestyle=":", label="two time constants")
     error.set(xlabel="preview horizon (s)", ylabel="mm", title="Largest ZMP error, x")
     error.grid(which="both", alpha=0.3)
     error.legend()

@@ -46,13 +46,24 @@ from .pattern.zmp_reference import zmp_reference as zmp_reference
 from .preview.cart_table import ComState as ComState
 from .preview.cart_table import ComTrajectory as ComTrajectory
 from .preview.cart_table import cart_table as cart_table
+from .preview.compare import Comparison as Comparison
+from .preview.compare import compare as compare
 from .preview.controller import PreviewController as PreviewController
 from .preview.design import PreviewDesign as PreviewDesign
 from .preview.gains import preview_gains as preview_gains
 from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
+from .preview.limits import Limits as Limits
+from .preview.mpc import PredictiveServo as PredictiveServo
+from .preview.observer import kalman_gain as kalman_gain
+from .preview.observer import luenberger_gain as luenberger_gain
 from .preview.response import Tracking as Tracking
 from .preview.response import preview_effect as preview_effect
 from .preview.response import track as track
+from .preview.servo import PreviewServo as PreviewServo
+from .preview.systems import closed_loop_system as closed_loop_system
+from .preview.systems import preview_filter as preview_filter
+from .preview.systems import servo_system as servo_system
+from .preview.zmp_mpc import zmp_mpc as zmp_mpc
 
 # Records, figures, plots, films.
 from .record.record import Record as Record

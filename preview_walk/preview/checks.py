@@ -86,6 +86,15 @@ def require_positive(name: str, value: float, unit: str) -> None:
         )
 
 
+def require_type(name: str, value: object, kind: type) -> None:
+    """Refuse what is not of a type."""
+    if not isinstance(value, kind):
+        raise InvalidInput(
+            f"expected {name} to be a {kind.__name__}, got a {type(value).__name__}.",
+            argument=name,
+        )
+
+
 def shown(value: object) -> str:
     """Return a value as a sentence can carry it."""
     text = repr(value).replace("\n", " ")

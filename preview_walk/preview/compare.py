@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import finite_vector, sequence, shown
+from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.limits import Limits, output_limits
@@ -81,18 +81,22 @@ class Comparison:
 
     def __str__(self) -> str:
         """Return the table: a row for each law."""
-        titles = ("law", "rms error", "max error", "rms u", "max |u|", "rms du", "outside",
-                  "us/sample", "failures")  # fmt: skip
-        lines = ["".join(f"{title:>12}" for title in titles)]
+        outputs = self.design.plant.outputs
+        errors = [f" {name}" for name in outputs] if len(outputs) > 1 else [" error"]
+        titles = [f"{kind}{error}" for kind in ("rms", "max") for error in errors]
+        titles += ["rms u", "max |u|", "rms du", "outside", "us/sample", "failures"]
+        widths = [max(11, len(title) + 2) for title in titles]
+        lines = [f"{'law':>8}" + "".join(f"{t:>{w}}" for t, w in zip(titles, widths, strict=True))]
         for result in self.results:
             error, u = result.run.error, result.run.u
             change = np.diff(u, axis=0, prepend=0.0)
-            numbers = (
-                _rms(error), np.abs(error).max(), _rms(u), np.abs(u).max(), _rms(change),
-                result.outside, 1e6 * result.seconds,
-            )  # fmt: skip
-            cells = "".join(f"{number:>12.4g}" for number in numbers)
-            lines.append(f"{result.name:>12}{cells}{result.failures:>12}")
+            numbers = [
+                *(_rms(column) for column in error.T), *np.abs(error).max(axis=0), _rms(u),
+                np.abs(u).max(), _rms(change), result.outside, 1e6 * result.seconds,
+                result.failures,
+            ]  # fmt: skip
+            cells = "".join(f"{x:>{w}.4g}" for x, w in zip(numbers, widths, strict=True))
+            lines.append(f"{result.name:>8}{cells}")
         return "\n".join(lines)
 
     def plot(self, path: str | os.PathLike[str]) -> Path:
@@ -141,7 +145,17 @@ def compare(
         InvalidInput: If a shape is wrong, a value not finite or a law unknown.
 
     """
+    require_type("design", design, PreviewDesign)
     limits = Limits() if limits is None else limits
+    require_type("limits", limits, Limits)
+    if (
+        isinstance(laws, str)
+        or not isinstance(laws, Sequence)
+        or not set(map(str, laws)) <= set(LAWS)
+    ):
+        raise InvalidInput(
+            f"expected laws out of {', '.join(LAWS)}, got {shown(laws)}.", argument="laws"
+        )
     r = sequence("reference", reference, len(design.plant.C))
     w = read_disturbance(design, disturbance, len(r))
     start = finite_vector("x0", x0, np.zeros(len(design.plant.A)))
@@ -167,10 +181,6 @@ def _servo(name: str, design: PreviewDesign, limits: Limits) -> PreviewServo:
         design = preview_gains(design.plant, *weights, 0, integral=False)
     elif name == "LQI":
         design = preview_gains(design.plant, *weights, 0)
-    elif name != "preview":
-        raise InvalidInput(
-            f"expected laws out of {', '.join(LAWS)}, got {shown(name)}.", argument="laws"
-        )
     return PreviewServo(design, u_min=limits.u_min, u_max=limits.u_max)
 
 

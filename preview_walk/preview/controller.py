@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table
-from preview_walk.preview.checks import read_only, real_array, require_positive, shown
+from preview_walk.preview.checks import read_only, real_array, require_positive, require_type, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.horizon import MAX_HORIZON
 from preview_walk.preview.response import PreviewFilter
-from preview_walk.preview.zmp_input import check_times, read_zmp_reference, start_rows
+from preview_walk.preview.zmp_input import check_times, read_zmp_reference, start_rows, two_numbers
 from preview_walk.types import Array
 
 __all__ = ["ComState", "ComTrajectory", "PreviewController"]
@@ -135,19 +135,13 @@ class PreviewController:
             InvalidInput: If one of them is not two finite numbers.
 
         """
-        rows = []
-        for name, value in (
+        parts = (
             ("com", com),
             ("velocity", velocity),
             ("acceleration", acceleration),
             ("jerk", jerk),
-        ):
-            row = real_array(name, value, "two finite numbers")
-            if row.shape != (2,) or not np.isfinite(row).all():
-                raise InvalidInput(
-                    f"expected {name} to be two finite numbers, got {shown(value)}.", argument=name
-                )
-            rows.append(row)
+        )
+        rows = [two_numbers(name, value) for name, value in parts]
         return _state(np.array([*rows, rows[0] - self._lever * rows[2]]))
 
     def step(self, state: ComState, zmp_window: Array) -> ComState:
@@ -166,10 +160,10 @@ class PreviewController:
             action = self._window_gain @ zmp_window
             array = self._step @ state.array + self._step_input * action
             valid = action.shape == (2,) and math.isfinite(action[0] + action[1])
-        except (TypeError, ValueError, OverflowError):
+        except (AttributeError, TypeError, ValueError, OverflowError):
             valid = False
         if not valid:
-            self._refuse_window(zmp_window)
+            self._refuse_step(state, zmp_window)
         return _state(array)
 
     def interpolate(self, state: ComState, following: ComState, tau: float) -> ComState:
@@ -189,14 +183,16 @@ class PreviewController:
         """
         try:
             inside = 0.0 <= tau <= self.dt * (1.0 + 1e-9)
-        except (TypeError, ValueError):
+            (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
+            jx, jy = following.array[3].tolist()
+        except (AttributeError, TypeError, ValueError):
+            require_type("state", state, ComState)
+            require_type("following", following, ComState)
             inside = False
         if not inside:
             raise InvalidInput(
                 f"expected tau to be 0 to {self.dt} s, got {shown(tau)}.", argument="tau"
             )
-        (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
-        jx, jy = following.array[3].tolist()
         half, sixth = 0.5 * tau, tau / 3.0
         bx, by = ax + tau * jx, ay + tau * jy
         px = cx + tau * (vx + half * (ax + sixth * jx))
@@ -273,7 +269,8 @@ class PreviewController:
         result = self.trajectory(zmp_ref, x0, t=t)
         return result.com, result.velocity
 
-    def _refuse_window(self, window: Array) -> None:
+    def _refuse_step(self, state: ComState, window: Array) -> None:
+        require_type("state", state, ComState)
         shape = real_array("zmp_window", window).shape
         if shape != (self.n_preview, 2):
             raise InvalidInput(

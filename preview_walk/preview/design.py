@@ -26,10 +26,10 @@ class PreviewDesign(Value):
 
     and without
 
-        u(k) = G_I r(k) - G_x x(k) - sum_{l=1..N} G_d(l) dr(k+l)
-               - G_w(0) w(k-1) - sum_{j=0..N-1} G_w(j) dw(k+j)
+        u(k) = G_I r(k) - G_x x(k) - sum_{l=1..N} G_d(l) dr(k+l) - sum_{j=0..N-1} G_w(j) w(k+j).
 
-    in which w(k-1) cancels. Past its window the future holds its last value.
+    Past its window the future holds its last value; without integral action a disturbance is over
+    there, as one that is not seen at all (N = 0) has to be left out.
 
     Attributes:
         plant: The plant: n states, m inputs, p outputs, q previewed disturbances.
@@ -109,6 +109,8 @@ class PreviewDesign(Value):
     @cached_property
     def disturbance_window_gain(self) -> Array:
         """(N, m, q) F_w, the gains on w(k) to w(k+N-1) themselves; w(k-1) cancels."""
+        if not self.integral:
+            return read_only(-self.disturbance_gain)
         return read_only(np.diff(self.disturbance_gain, axis=0, append=0.0))
 
     @cached_property

@@ -114,7 +114,7 @@ def preview_gains(
         own = law.gain[:, :p].copy()
     else:
         law = solve_riccati(positional(plant, weights))
-        columns = _held(plant, weights, law)
+        columns = _held_reference(plant, weights, law), law.riccati @ plant.E
         own = _reference_gain(plant, weights, law, columns[0])
     slow = slow_mode(law.closed, law.left, np.hstack(columns))
     count = samples(horizon, slow, len(law.closed))
@@ -136,15 +136,13 @@ def _decaying(law: Law, column: Array, count: int) -> Array:
     return gains
 
 
-def _held(plant: Plant, weights: Weights, law: Law) -> tuple[Array, Array]:
-    """Return what steps of reference and disturbance, held for ever, add to the costate of x.
+def _held_reference(plant: Plant, weights: Weights, law: Law) -> Array:
+    """Return what a step of the reference, held for ever, adds to the costate of x.
 
-    The costate s(k) = A_c' s(k+1) + C_c' Q_e r(k) - A_c' P E w(k), C_c = C - D K, of a step held is
-    a geometric sum.
+    The costate s(k) = A_c' s(k+1) + C_c' Q_e r(k), C_c = C - D K, is then a geometric sum.
     """
-    ahead = np.eye(len(law.closed)) - law.closed.T
     seen = (plant.C - plant.D @ law.gain).T @ weights.Q_e
-    return -np.linalg.solve(ahead, seen), np.linalg.solve(ahead, law.riccati @ plant.E)
+    return np.asarray(-np.linalg.solve(np.eye(len(law.closed)) - law.closed.T, seen))
 
 
 def _reference_gain(plant: Plant, weights: Weights, law: Law, column: Array) -> Array:

@@ -17,11 +17,14 @@ TOLERANCE = 1e-7
 _NOTHING = 1e-12
 """A row of this norm says that nothing that can still be done reaches its limit."""
 
+_ENDLESS = 1e25
+"""OSQP takes a bound of 1e30 for none."""
+
 
 def least_norm(rows: Array, bounds: Array) -> Array | None:
     """Return the least x (n,) with rows (k, n) x <= bounds (k,), or None where there is none."""
     sizes = np.linalg.norm(rows, axis=1)
-    if (sizes < _NOTHING).any():
+    if (sizes < _NOTHING).any() or not (np.abs(bounds) < _ENDLESS * sizes).all():
         return None
     used = np.flatnonzero(rows.any(axis=0))
     # Rows of norm one and the identity as Hessian: OSQP needs no scaling of its own.

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import require_type
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.least_norm import ROUNDS, TOLERANCE, least_norm
 from preview_walk.preview.limits import Limits, output_limits
@@ -60,6 +61,7 @@ class PredictiveServo(PreviewServo):
             InvalidInput: If limits contradict each other or a shape is wrong.
 
         """
+        require_type("limits", limits, Limits)
         super().__init__(
             design, u_min=limits.u_min, u_max=limits.u_max, observer_gain=observer_gain
         )
@@ -109,10 +111,11 @@ class PredictiveServo(PreviewServo):
             InvalidInput: If a window has another shape or holds NaN or infinity.
 
         """
+        require_type("state", state, ServoState)
         design, plant = self.design, self.design.plant
         shape = (design.horizon + 1, len(plant.C))
         r = self._window("window", window, *shape).reshape(shape)
-        w = np.zeros((design.horizon, plant.E.shape[1]))
+        w: Array = np.zeros((design.horizon, plant.E.shape[1]))
         if disturbance is not None:
             w = self._window("disturbance", disturbance, *w.shape).reshape(w.shape)
         if y_limits is None:
@@ -134,7 +137,7 @@ class PredictiveServo(PreviewServo):
         action = self._reference.run(r.T[None], 1)[0].T + r @ design.present_gain.T
         push = np.zeros((len(r), len(state.x)))
         if self._disturbance is not None:
-            held = np.vstack([w, w[-1:]])
+            held = np.vstack([w, w[-1:] if design.integral else 0.0 * w[-1:]])
             action = action + self._disturbance.run(held.T[None])[0].T
             push = held @ design.plant.E.T
         start = state.x

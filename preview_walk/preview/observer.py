@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import real_array, shown
+from preview_walk.preview.checks import real_array, require_type, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.weights import weight_matrix
 from preview_walk.types import Array
@@ -31,6 +31,7 @@ def kalman_gain(design: PreviewDesign, process_noise: ArrayLike, output_noise: A
     """
     import control
 
+    require_type("design", design, PreviewDesign)
     a, c = design.plant.A, design.plant.C
     process = weight_matrix("process_noise", process_noise, len(a))
     output = weight_matrix("output_noise", output_noise, len(c), definite=True)
@@ -38,7 +39,7 @@ def kalman_gain(design: PreviewDesign, process_noise: ArrayLike, output_noise: A
         with np.errstate(all="ignore"):
             _, p, poles = control.dlqe(a, np.eye(len(a)), c, process, output)
             gain: Array = np.linalg.solve(c @ p @ c.T + output, c @ p).T
-    except (np.linalg.LinAlgError, ValueError, control.ControlArgument) as error:
+    except (np.linalg.LinAlgError, ValueError, TypeError) as error:
         raise InvalidInput(
             "expected outputs and noises that make a Kalman filter, got: "
             f"{str(error).rstrip('.')}.",
@@ -67,9 +68,14 @@ def luenberger_gain(design: PreviewDesign, poles: ArrayLike) -> Array:
     """
     import control
 
+    require_type("design", design, PreviewDesign)
     a, c = design.plant.A, design.plant.C
-    complex_ones = np.iscomplexobj(poles)
-    wanted = np.atleast_1d(np.asarray(poles) if complex_ones else real_array("poles", poles))
+    try:
+        wanted = np.atleast_1d(np.asarray(poles))
+    except ValueError:
+        wanted = np.zeros(0)
+    if wanted.dtype.kind != "c":
+        wanted = np.atleast_1d(real_array("poles", poles))
     if wanted.shape != (len(a),) or not np.isfinite(wanted).all() or np.abs(wanted).max() >= 1.0:
         raise InvalidInput(
             f"expected {len(a)} poles inside the unit circle, got {shown(poles)}.", argument="poles"
@@ -77,7 +83,7 @@ def luenberger_gain(design: PreviewDesign, poles: ArrayLike) -> Array:
     try:
         # (I - L C) A = A - L (C A): the error after the correction.
         gain: Array = np.asarray(control.place(a.T, (c @ a).T, wanted)).T
-    except (np.linalg.LinAlgError, ValueError, control.ControlException) as error:
+    except (np.linalg.LinAlgError, ValueError, TypeError) as error:
         raise InvalidInput(
             f"expected poles that the outputs can place, got: {str(error).rstrip('.')}.",
             argument="poles",

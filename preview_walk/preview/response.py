@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import finite_vector, sequence, shown
+from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.recursion import Recursion
 from preview_walk.types import Array
@@ -140,6 +140,7 @@ def track(
         InvalidInput: If a shape is wrong or a value not finite.
 
     """
+    require_type("design", design, PreviewDesign)
     plant = design.plant
     n, m = plant.B.shape
     r = sequence("reference", reference, len(plant.C))
@@ -181,6 +182,7 @@ def preview_effect(
         InvalidInput: If a horizon is out of range, a shape wrong or a value not finite.
 
     """
+    require_type("design", design, PreviewDesign)
     r = sequence("reference", reference, len(design.plant.C))
     x0, u0 = rest(design, r[0])
     try:

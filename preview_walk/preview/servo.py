@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import Value, finite_vector, real_array
+from preview_walk.preview.checks import Value, finite_vector, real_array, require_type
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.limits import input_limits
 from preview_walk.types import Array
@@ -74,6 +74,7 @@ class PreviewServo:
             InvalidInput: If limits contradict each other or a shape is wrong.
 
         """
+        require_type("design", design, PreviewDesign)
         plant = design.plant
         m, p = plant.B.shape[1], len(plant.C)
         self.design = design
@@ -128,6 +129,7 @@ class PreviewServo:
             InvalidInput: If a window has another shape or holds NaN or infinity.
 
         """
+        require_type("state", state, ServoState)
         design, plant = self.design, self.design.plant
         n_ahead, q = design.horizon, plant.E.shape[1]
         action = self._window_gain @ self._window("window", window, n_ahead + 1, len(plant.C))
@@ -156,6 +158,7 @@ class PreviewServo:
             InvalidInput: If x is not n finite numbers.
 
         """
+        require_type("state", state, ServoState)
         found = finite_vector("x", x, np.zeros(len(state.x)))
         return ServoState(found, state.u, found - state.x, state.offset)
 
@@ -177,6 +180,7 @@ class PreviewServo:
             raise InvalidInput(
                 "expected a servo with an observer_gain, got one without.", argument="observer_gain"
             )
+        require_type("state", state, ServoState)
         plant = self.design.plant
         output = finite_vector("y", y, np.zeros(len(plant.C)))
         drift = self.observer_gain @ (output - plant.C @ state.x - plant.D @ state.u)

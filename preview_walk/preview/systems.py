@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from preview_walk.preview.checks import require_type
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.types import Array
 
@@ -43,6 +44,7 @@ def preview_filter(design: PreviewDesign) -> control.StateSpace:
     """
     import control
 
+    require_type("design", design, PreviewDesign)
     parts = _filter(design)
     plant = design.plant
     outputs = [f"w[{i}]" for i in range(plant.B.shape[1])]
@@ -69,6 +71,7 @@ def servo_system(design: PreviewDesign) -> control.StateSpace:
     """
     import control
 
+    require_type("design", design, PreviewDesign)
     plant, line = design.plant, _filter(design)
     n, m = plant.B.shape
     p, q, s = len(plant.C), plant.E.shape[1], len(line.a)
@@ -114,6 +117,7 @@ def closed_loop_system(design: PreviewDesign) -> control.StateSpace:
     """
     import control
 
+    require_type("design", design, PreviewDesign)
     plant, line = design.plant, _filter(design, drift=True)
     n, m = plant.B.shape
     p = len(plant.C)

@@ -11,6 +11,21 @@ from preview_walk.preview.checks import real_array, shown
 from preview_walk.types import Array
 
 
+def two_numbers(name: str, value: ArrayLike) -> Array:
+    """Return (2,) finite numbers, one for each axis.
+
+    Raises:
+        InvalidInput: If they are not.
+
+    """
+    row = real_array(name, value, "two finite numbers")
+    if row.shape != (2,) or not np.isfinite(row).all():
+        raise InvalidInput(
+            f"expected {name} to be two finite numbers, got {shown(value)}.", argument=name
+        )
+    return row
+
+
 def read_zmp_reference(value: ArrayLike) -> Array:
     """Return a ZMP reference (m) as a finite array of shape (N,) or (N, 2).
 
