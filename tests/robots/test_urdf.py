@@ -225,7 +225,7 @@ def test_an_inertia_no_solid_has_is_raised(urdf, load):
         ),
         (
             lambda root: joint(root, "left_knee").set("type", "fixed"),
-            "no two legs found: expected two limbs of at least 6 joints, the lowest of the robot, "
+            "no two legs found: expected two limbs of at least 5 joints, the lowest of the robot, "
             "on one body; its limbs end at 'left_elbow' (3 joints), 'right_elbow' (3 joints), "
             "'left_foot' (5 joints), 'right_foot' (6 joints)",
         ),

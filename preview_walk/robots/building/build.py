@@ -11,10 +11,11 @@ from preview_walk.errors import RobotError
 from preview_walk.robots.building.engines import in_two_engines, joint_limits, torso_frame
 from preview_walk.robots.building.motors import joint_efforts
 from preview_walk.robots.building.stand import stand
-from preview_walk.robots.finding.soles import SolePatch, find_sole, sole_axes
+from preview_walk.robots.finding.constraints import settle
+from preview_walk.robots.finding.overlaps import overlaps
+from preview_walk.robots.finding.soles import SolePatch, find_sole, rocks, sole_axes
 from preview_walk.robots.finding.structure import Structure, find_structure
 from preview_walk.robots.reading.description import Description
-from preview_walk.robots.reading.mjcf import settle
 from preview_walk.robots.reading.source import Source, foot_shapes
 from preview_walk.robots.robot import Blueprint, Robot
 from preview_walk.types import FEET, Foot
@@ -43,6 +44,10 @@ def build_robot(description: Description, source: Source) -> Robot:
     names = [str(name) for name in model.names[2:]]
     effort = np.array([motors.get(name, 0.0) for name in names])
     posture, legs, freed, stood = stand(engines, tree, parts, description.posture, effort)
+    overlapping = overlaps(tree, parts.base, dict(zip(names, posture[7:], strict=True)))
+    if overlapping:
+        pairs = ", ".join(overlapping)
+        stood.append(f"shapes that can touch overlap in the walking posture: {pairs}")
     low, high = joint_limits(mj)
     data = model.createData()
     com = pin.centerOfMass(model, data, posture)
@@ -78,8 +83,7 @@ def _motors(
 ) -> tuple[Mapping[str, float], list[str]]:
     """Return the torque limits (N·m) of the motors by joint name, and remarks."""
     tree = source.tree
-    mass = float(tree.mj.body_subtreemass[base])
-    efforts, notes = joint_efforts(tree, source.urdf is not None, mass)
+    efforts, notes = joint_efforts(tree, base, source.urdf is not None)
     for joint in sorted(leg_joints):
         if not efforts.get(joint, 0.0) > 0.0:
             raise RobotError(
@@ -105,4 +109,10 @@ def _soles(
             tree, seen = foot_shapes(source, body)
             notes += seen
             soles[foot] = find_sole(tree, body, axes)
+            below = rocks(tree, body, soles[foot])
+            if below > 0.0:
+                notes.append(
+                    f"a shape of '{soles[foot].body}' reaches {1e3 * below:.1f} mm below the flat "
+                    "of its sole: in its own scene the foot rocks on it"
+                )
     return soles, notes

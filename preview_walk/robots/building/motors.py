@@ -14,31 +14,31 @@ ASSUMED = 3.0
 _JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
 
 
-def joint_efforts(tree: Tree, implied: bool, mass: float) -> tuple[dict[int, float], list[str]]:
+def joint_efforts(tree: Tree, base: int, implied: bool) -> tuple[dict[int, float], list[str]]:
     """Return the largest torque (N·m) of every joint with a motor, by joint id, and remarks.
 
     A motor without a force limit gets `ASSUMED` times the robot's mass.
 
     Args:
         tree: the model.
+        base: its floating body; joints that it does not carry are somebody else's.
         implied: whether every joint has a motor even without an actuator, as in a URDF.
-        mass: of the robot, kg.
 
     Raises:
         RobotError: the model has no motors at all.
     """
-    mj = tree.mj
+    mj, mass = tree.mj, float(tree.mj.body_subtreemass[base])
+    moving = tree.joints_on(tree.below(base))
     push: dict[int, tuple[float, float]] = {}
     replaced = 0
     for actuator in range(mj.nu):
-        if int(mj.actuator_trntype[actuator]) not in _JOINT:
-            continue
         joint = int(mj.actuator_trnid[actuator, 0])
+        if int(mj.actuator_trntype[actuator]) not in _JOINT or joint not in moving:
+            continue
         low, high, torque = _range(mj, actuator)
         replaced += not torque
         before = push.get(joint, (0.0, 0.0))
         push[joint] = (before[0] + low, before[1] + high)
-    moving = [j for j in tree.joints_on(list(range(1, mj.nbody)))]
     if mj.nu == 0:
         push = {j: (-np.inf, np.inf) for j in moving if implied or mj.jnt_actfrclimited[j]}
     if not push:
