@@ -61,7 +61,9 @@ def test_not_a_robot_at_all():
 
 def test_unknown_mesh(tmp_path):
     path = tmp_path / "my.xml"
-    path.write_text(WALKER.replace("<material", '<mesh name="m" file="gone.stl"/><material', 1))
+    text = WALKER.replace("<material", '<mesh name="m" file="gone.stl"/><material', 1)
+    foot = '<geom class="sole" name="left_foot"'
+    path.write_text(text.replace(foot, f'<geom type="mesh" mesh="m"/>{foot}'))
     with says(f"MuJoCo cannot compile '{path}': Error opening file 'gone.stl'"):
         load_robot(path)
 

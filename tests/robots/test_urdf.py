@@ -225,9 +225,8 @@ def test_an_inertia_no_solid_has_is_raised(urdf, load):
         ),
         (
             lambda root: joint(root, "left_knee").set("type", "fixed"),
-            "no two legs found: expected two limbs of at least 5 joints, the lowest of the robot, "
-            "on one body; its limbs end at 'left_elbow' (3 joints), 'right_elbow' (3 joints), "
-            "'left_foot' (5 joints), 'right_foot' (6 joints)",
+            "the leg from 'left_hip_yaw' to 'left_ankle_roll' has 2 joint(s) about the lateral "
+            "axis (left_hip_pitch, left_ankle_pitch); expected hip, knee and ankle",
         ),
     ],
 )
