@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.bounds import LARGEST_GAIN, SMALLEST_EFFORT
 from preview_walk.robots.finding.tree import Tree
 
 ASSUMED = 3.0
@@ -51,10 +52,15 @@ def joint_efforts(tree: Tree, base: int, implied: bool) -> tuple[dict[int, float
             low = max(low, float(mj.jnt_actfrcrange[joint, 0]))
             high = min(high, float(mj.jnt_actfrcrange[joint, 1]))
         effort = min(-low, high)
-        if not effort < np.inf:
+        if not effort <= LARGEST_GAIN:  # as good as none
             effort = ASSUMED * mass
             assumed.append(tree.joint_name(joint))
-        efforts[joint] = max(0.0, effort)
+        if effort != 0.0 and not effort >= SMALLEST_EFFORT:
+            raise RobotError(
+                f"the motor of the joint '{tree.joint_name(joint)}' gives {effort:g} N·m; "
+                f"expected 0 or at least {SMALLEST_EFFORT:g}"
+            )
+        efforts[joint] = effort
     notes = []
     if replaced:
         notes.append(f"{replaced} position, velocity or other actuators became torque motors")

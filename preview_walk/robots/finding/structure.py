@@ -77,6 +77,12 @@ def find_structure(tree: Tree, feet: Mapping[Foot, str], torso: str | None) -> S
     found: dict[Foot, int] = dict(zip(FEET, pair, strict=True))
     legs: dict[Foot, tuple[int, ...]] = dict(zip(FEET, map(tuple, chains), strict=True))
     trunk = _torso(tree, base, pelvis, found) if torso is None else _body(tree, torso, "the torso")
+    for foot, leg in legs.items():
+        if trunk in tree.below(int(tree.mj.jnt_bodyid[leg[0]])):
+            raise RobotError(
+                f"the torso names the body '{tree.name(trunk)}', which is a part of the {foot} "
+                "leg; expected the trunk"
+            )
     return Structure(base, found, legs, up, forward, trunk, tuple(notes))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, NoReturn
@@ -12,6 +13,7 @@ from typing import Any, NoReturn
 from preview_walk.errors import RobotError
 from preview_walk.geometry.support import Sole
 from preview_walk.robots.bounds import LARGEST, SMALLEST_SOLE
+from preview_walk.robots.reading.content import is_there, shown
 from preview_walk.types import FEET, Foot
 
 SHIPPED = "example-robot-data:"
@@ -67,23 +69,36 @@ def catalogue() -> tuple[str, ...]:
 
 
 def describe(name: str | Path) -> Description:
-    """Return the description of a robot of the catalogue, of a .json, .urdf or .xml file.
+    """Return the description of a robot.
 
-    Raises `RobotError` for an unknown name or a file that does not exist.
+    Args:
+        name: of the catalogue, or the path of a .json, .urdf, .xml or .mjcf file.
+
+    Raises:
+        RobotError: an unknown name, or a file that does not exist.
     """
     path = Path(name)
     if path.suffix.lower() not in (".json", ".urdf", ".xml", ".mjcf"):
-        if str(name) not in catalogue():
-            raise RobotError(
-                f"unknown robot '{name}'; expected one of {', '.join(catalogue())}, "
-                "or the path of a .urdf or .xml file"
-            )
-        path = models_folder() / f"{name}.json"
-    if not path.is_file():
-        raise RobotError(f"the file '{path}' does not exist")
+        path = models_folder() / f"{_known(str(name))}.json"
+    if not is_there(path):
+        raise RobotError(f"the file '{shown(path)}' does not exist", argument="model")
     if path.suffix.lower() == ".json":
         return read_description(path)
     return Description(path.stem, path.stem, str(path.resolve()))
+
+
+def _known(name: str) -> str:
+    """Return the catalogue's name for what was typed, capitals or not."""
+    known = catalogue()
+    if name.lower() in known:
+        return name.lower()
+    near = get_close_matches(name.lower(), known, n=1, cutoff=0.75)
+    meant = f"; did you mean '{near[0]}'?" if near else ";"
+    raise RobotError(
+        f"unknown robot '{shown(name)}'{meant} expected one of {', '.join(known)}, "
+        "or the path of a .urdf or .xml file",
+        argument="model",
+    )
 
 
 def read_description(path: Path) -> Description:

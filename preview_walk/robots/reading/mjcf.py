@@ -10,6 +10,7 @@ import numpy as np
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.finding.tree import Tree
+from preview_walk.robots.reading.content import content_of, is_there, refuse_endless
 from preview_walk.robots.reading.inertia import MASSLESS, NO_MASS, usable_inertia
 from preview_walk.robots.reading.lost_looks import without_lost_looks
 
@@ -62,13 +63,28 @@ def read_mjcf(path: Path) -> tuple[mujoco.MjModel, tuple[str, ...]]:
     Raises:
         RobotError: it cannot be read or compiled; mostly with MuJoCo's own words.
     """
+    content = content_of(path)
+    refuse_endless(path, content)
     # MuJoCo looks at the suffix, so the content is handed over as that of a file called .xml.
     name = path.with_suffix(".xml")
     try:
-        spec = mujoco.MjSpec.from_file(str(name), include={name.name: path.read_bytes()})
-    except (OSError, ValueError, RuntimeError) as error:
-        raise RobotError(f"MuJoCo cannot read '{path}': {_sentence(error)}") from error
-    return compile_spec(spec, f"'{path}'")
+        spec = mujoco.MjSpec.from_file(str(name), include={name.name: content})
+    except (ValueError, RuntimeError) as error:
+        hint = _scene_hint(path)
+        raise RobotError(f"MuJoCo cannot read '{path}': {_sentence(error)}{hint}") from error
+    try:
+        return compile_spec(spec, f"'{path}'")
+    except RobotError as error:
+        raise RobotError(f"{error}{_scene_hint(path)}") from error
+
+
+def _scene_hint(path: Path) -> str:
+    """Return which file beside this one includes it: a part of a scene may need the whole."""
+    named = re.compile(rb"<include\b[^>]*\bfile\s*=\s*[\"']" + re.escape(path.name.encode()))
+    for scene in sorted(path.parent.glob("*.xml"))[:200]:
+        if scene.name != path.name and is_there(scene) and named.search(content_of(scene)):
+            return f"; it is a part of '{scene.name}', which lies beside it: give that file"
+    return ""
 
 
 def _sentence(error: Exception) -> str:
