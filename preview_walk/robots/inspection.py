@@ -13,7 +13,8 @@ from preview_walk.robots.building.rebuild import rebuild
 from preview_walk.robots.load import load_robot
 from preview_walk.robots.picture import write_picture
 from preview_walk.robots.problems import problems_of
-from preview_walk.robots.reading.description import Description, describe
+from preview_walk.robots.reading.description import describe
+from preview_walk.robots.reading.facts import Description
 from preview_walk.robots.reading.mjcf import compile_spec
 from preview_walk.robots.reading.shapes import add_shapes
 from preview_walk.robots.reading.source import read_source

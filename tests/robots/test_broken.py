@@ -49,6 +49,16 @@ def test_unknown_name():
         load_robot("atlas")
 
 
+def test_a_name_in_capitals_is_the_robots():
+    assert load_robot("Humanoid-Walker").name == "humanoid-walker"
+
+
+@pytest.mark.parametrize("name", ["talso", "TALO", "tallos"])
+def test_a_name_with_a_slip_is_suggested(name):
+    with pytest.raises(RobotError, match=f"^unknown robot '{name}'; did you mean 'talos'\\? exp"):
+        load_robot(name)
+
+
 def test_no_such_file():
     with says("the file 'nowhere/my.xml' does not exist"):
         load_robot("nowhere/my.xml")
@@ -178,7 +188,8 @@ def test_closed_loop(spec):
     )
     with says(
         "the equality constraint 'bar' closes a loop between the bodies 'left_hip' and "
-        "'left_foot'; only open chains of joints are allowed"
+        "'left_foot'; expected open chains: leave the constraint out, and give the joints that it "
+        "drives motors of their own"
     ):
         load_robot(spec)
 
@@ -192,7 +203,7 @@ def test_coupled_leg_joint(spec):
     )
     with says(
         "the leg joint 'left_ankle_roll' is driven by 'left_knee'; every leg joint must move on "
-        "its own"
+        "its own: leave the coupling out, and give the joint a motor"
     ):
         load_robot(spec)
 
@@ -233,8 +244,8 @@ def test_posture_outside_the_limits(tmp_path):
         ("{}", "the description 'mine.json' lacks 'model', the path of its model"),
         (
             '{"model": "walker.xml", "gain": 3}',
-            "the description 'mine.json' holds gain; expected title, model, torso, soles and "
-            "posture only",
+            "the description 'mine.json' holds gain; expected title, model, torso, soles, "
+            "posture and limits only",
         ),
         (
             '{"model": "walker.xml", "soles": {"left": {"body": "left_foot"}}}',

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+import pinocchio as pin
 import pytest
 
 import preview_walk as pw
@@ -163,3 +164,65 @@ def test_what_holds_the_robot_in_its_scene_is_told() -> None:
     assert holding_constraints(plan.tree, plan.parts.base) == (weld,)
     free = robot_of("missing_visual_mesh.xml").blueprint
     assert holding_constraints(free.tree, free.parts.base) == ()
+
+
+def test_passive_joints_of_both_legs_are_locked() -> None:
+    """A tarsus on a spring, without a motor: the leg is one of six joints."""
+    spec = mujoco.MjSpec.from_file(str(CASES / "seven_dof_tarsus.xml"))
+    for side in ("left", "right"):
+        spec.delete(spec.actuator(f"{side}_tarsus"))
+        spec.joint(f"{side}_tarsus").stiffness[0] = 500.0
+    robot = load_robot(spec)
+    assert "locked, because no motor moves them: left_tarsus, right_tarsus" in robot.notes
+    assert robot.joint_names == robot_of("base.mjcf").joint_names
+    assert robot.leg_length == pytest.approx(0.74)
+
+
+def test_a_part_of_a_scene_says_which(tmp_path: Path) -> None:
+    text = (CASES / "contact_pairs.xml").read_text()
+    floor = '<geom name="floor" type="plane" size="5 5 .1"/>'
+    assert floor in text
+    (tmp_path / "robot.xml").write_text(text.replace(floor, ""))
+    (tmp_path / "scene.xml").write_text(
+        f'<mujoco><include file="robot.xml"/><worldbody>{floor}</worldbody></mujoco>'
+    )
+    with pytest.raises(pw.RobotError, match=r"a part of 'scene\.xml', .*: give that file$"):
+        load_robot(tmp_path / "robot.xml")
+    assert load_robot(tmp_path / "scene.xml").sole == robot_of("contact_pairs.xml").sole
+
+
+def description(folder: Path, facts: str) -> Path:
+    (folder / "mini.mjcf").write_bytes((CASES / "base.mjcf").read_bytes())
+    (folder / "mini.json").write_text(f'{{"model": "mini.mjcf", {facts}}}')
+    return folder / "mini.json"
+
+
+def test_limits_may_be_said(tmp_path: Path) -> None:
+    facts = '"limits": {"left_knee": {"torque": 80, "speed": 7.5}, "right_knee": {"speed": 6}}'
+    robot = load_robot(description(tmp_path, facts))
+    left, right = (robot.joint_names.index(f"{side}_knee") for side in ("left", "right"))
+    assert (robot.effort[left], robot.effort[right]) == (80.0, 150.0)
+    assert (robot.v_limit[left], robot.v_limit[right]) == (7.5, 6.0)
+    assert np.isinf(np.delete(robot.v_limit, [left, right])).all()
+    assert robot.mj.actuator("left_knee").ctrlrange.tolist() == [-80.0, 80.0]
+
+
+def test_limits_of_a_joint_that_there_is_not(tmp_path: Path) -> None:
+    with pytest.raises(pw.RobotError, match=r"^the limits name the joint 'knee', which the model"):
+        load_robot(description(tmp_path, '"limits": {"knee": {"torque": 80}}'))
+
+
+def test_the_orientation_of_a_sole_may_be_said(tmp_path: Path) -> None:
+    """A foot drawn with its toes pointing 0.2 rad down in the zero pose."""
+    sole = '"size": [0.18, 0.08], "center": [0.03, 0, -0.04], "rpy": [0, 0.2, 0]'
+    facts = ", ".join(
+        f'"{side}": {{"body": "{side}_ankle_roll_link", {sole}}}' for side in ("left", "right")
+    )
+    robot = load_robot(description(tmp_path, f'"soles": {{{facts}}}'))
+    data = robot.pin.createData()
+    pin.framesForwardKinematics(robot.pin, data, robot.posture)
+    for foot, leg in robot.legs.items():
+        level = data.oMf[robot.soles[foot].frame].rotation
+        np.testing.assert_allclose(level, np.eye(3), atol=1e-9)
+        tilt = level.T @ data.oMi[leg.joints[-1]].rotation
+        np.testing.assert_allclose(tilt, pin.rpy.rpyToMatrix(0.0, -0.2, 0.0), atol=1e-9)

@@ -40,7 +40,8 @@ def settle(
         if joint in leg_joints:
             raise RobotError(
                 f"the leg joint '{tree.joint_name(joint)}' is driven by {_quoted(leader)}; "
-                "every leg joint must move on its own"
+                "every leg joint must move on its own: leave the coupling out, and give the joint "
+                "a motor"
             )
     for actuator in range(tree.mj.nu):
         if int(tree.mj.actuator_trntype[actuator]) == _TENDON:
@@ -96,7 +97,8 @@ def _refuse_loops(tree: Tree, base: int) -> None:
         if one in own and two in own:
             raise RobotError(
                 f"the equality constraint '{name}' closes a loop between the bodies "
-                f"'{tree.name(one)}' and '{tree.name(two)}'; only open chains of joints are allowed"
+                f"'{tree.name(one)}' and '{tree.name(two)}'; expected open chains: leave the "
+                "constraint out, and give the joints that it drives motors of their own"
             )
 
 
@@ -151,7 +153,8 @@ def _refuse_leg_tendon(tree: Tree, tendon: int, leg_joints: Collection[int]) -> 
         if int(mj.wrap_type[wrap]) == int(mujoco.mjtWrap.mjWRAP_JOINT) and joint in leg_joints:
             raise RobotError(
                 f"the leg joint '{tree.joint_name(joint)}' is moved by the tendon "
-                f"'{mj.tendon(tendon).name}'; expected a motor on every leg joint"
+                f"'{mj.tendon(tendon).name}'; expected a motor on the joint itself, with the "
+                "torque that the tendon gives there"
             )
 
 

@@ -106,7 +106,13 @@ def check_shapes(urdf: UrdfFile) -> None:
     """
     for link in urdf.robot.findall("link"):
         for element in (*link.findall("visual"), *link.findall("collision")):
-            origin(element)
+            place, _ = origin(element)
+            if not (np.abs(place) <= LARGEST).all():
+                text = ", ".join(f"{side:g}" for side in place)
+                raise RobotError(
+                    f"the link '{link.get('name')}' has a shape at ({text}) m; "
+                    f"expected -{LARGEST:g} to {LARGEST:g}"
+                )
             for shape in element.findall("geometry/*"):
                 size = _size(shape)
                 if size is not None and not ((size >= 0.0) & (size <= LARGEST)).all():

@@ -11,7 +11,8 @@ from preview_walk.errors import RobotError
 from preview_walk.robots.finding.tree import Tree
 from preview_walk.robots.reading.checks import check_numbers
 from preview_walk.robots.reading.content import content_of, is_there, shown
-from preview_walk.robots.reading.description import Description, model_path
+from preview_walk.robots.reading.description import model_path
+from preview_walk.robots.reading.facts import Description
 from preview_walk.robots.reading.mjcf import compile_spec, read_mjcf
 from preview_walk.robots.reading.shapes import add_shapes, check_shapes
 from preview_walk.robots.reading.urdf import Urdf, read_urdf

@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.bounds import LARGEST
 from preview_walk.robots.reading.content import content_of
 from preview_walk.robots.reading.inertia import usable_inertia
 from preview_walk.robots.reading.links import Element, links_of
@@ -170,7 +171,11 @@ def origin(element: Element) -> tuple[Array, Array]:
     """Return position (3,) and rotation (3, 3) of an element's <origin>."""
     at = element.find("origin")
     zero = (0.0, 0.0, 0.0)
-    return vector(at, "xyz", zero), pin.rpy.rpyToMatrix(vector(at, "rpy", zero))
+    rpy = vector(at, "rpy", zero)
+    if not (np.abs(rpy) <= LARGEST).all():
+        text = ", ".join(f"{angle:g}" for angle in rpy)
+        raise RobotError(f"the URDF holds the angles ({text}) rad; expected up to {LARGEST:g}")
+    return vector(at, "xyz", zero), pin.rpy.rpyToMatrix(rpy)
 
 
 def quaternion(rotation: Array) -> Array:
