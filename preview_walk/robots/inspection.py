@@ -7,21 +7,19 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-import pinocchio as pin
 
 from preview_walk.errors import RobotError
-from preview_walk.robots.building.posture import walking_posture
 from preview_walk.robots.building.rebuild import rebuild
-from preview_walk.robots.building.statics import carrying_torques
 from preview_walk.robots.load import load_robot
 from preview_walk.robots.picture import write_picture
-from preview_walk.robots.reading.description import Description, describe
+from preview_walk.robots.problems import problems_of
+from preview_walk.robots.reading.description import describe
+from preview_walk.robots.reading.facts import Description
 from preview_walk.robots.reading.mjcf import compile_spec
 from preview_walk.robots.reading.shapes import add_shapes
 from preview_walk.robots.reading.source import read_source
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.standing import stance_of
-from preview_walk.types import FEET, Array
+from preview_walk.types import FEET
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +85,7 @@ def inspect_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Inspect
     except RobotError as error:
         return Inspection(source, _contents(model), (), (), (str(error),), None)
     return Inspection(
-        source, _found(robot), robot.notes, _missing(robot), one_leg_problems(robot), robot
+        source, _found(robot), robot.notes, _missing(robot), problems_of(robot), robot
     )
 
 
@@ -132,6 +130,13 @@ def _found(robot: Robot) -> tuple[str, ...]:
         f"leg length {robot.leg_length:.3f} m; in the walking posture the CoM is "
         f"{robot.com_height:.3f} m high and the soles are {robot.step_width:.3f} m apart"
     )
+    friction = robot.mj.dof_frictionloss[6:]
+    if friction.any():
+        worst = robot.joint_names[int(friction.argmax())]
+        lines.append(
+            f"dry friction in {np.count_nonzero(friction)} joint(s), up to {friction.max():.2g} "
+            f"N·m in '{worst}'; the walk does not make up for it"
+        )
     return tuple(lines)
 
 
@@ -155,34 +160,3 @@ def _missing(robot: Robot) -> tuple[str, ...]:
         if lost:
             lines.append(f"visual meshes that are not found or not readable: {', '.join(lost)}")
     return tuple(lines)
-
-
-def one_leg_torques(robot: Robot) -> Array:
-    """Return the torques (nv - 6,) in N·m that hold the robot still over its left sole.
-
-    Statics: the CoM above the sole's centre, all weight on it.
-
-    Raises:
-        RobotError: the legs cannot lean so far.
-    """
-    model = robot.pin
-    data = model.createData()
-    pin.framesForwardKinematics(model, data, robot.posture)
-    hip = float(data.oMi[robot.legs["left"].hip].translation[2])
-    lean = robot.step_width / 2
-    q = walking_posture(stance_of(robot), robot.posture, hip / robot.leg_length, lean)
-    return carrying_torques(model, q, robot.soles["left"].frame)
-
-
-def one_leg_problems(robot: Robot) -> tuple[str, ...]:
-    """Return which motors are too weak to stand on one leg, in words."""
-    try:
-        torques = np.abs(one_leg_torques(robot))
-    except RobotError as error:
-        return (f"standing on one leg: {error}",)
-    return tuple(
-        f"the joint '{name}' needs {torque:.1f} N·m to stand on one leg, its motor gives "
-        f"{effort:.1f} N·m"
-        for name, torque, effort in zip(robot.joint_names, torques, robot.effort, strict=True)
-        if torque > effort > 0.0
-    )

@@ -12,7 +12,8 @@ from preview_walk.errors import RobotError
 from preview_walk.robots.building.assemble import assemble
 from preview_walk.robots.building.build import build_robot
 from preview_walk.robots.building.rebuild import rebuild
-from preview_walk.robots.reading.description import Description, describe
+from preview_walk.robots.reading.description import describe
+from preview_walk.robots.reading.facts import Description
 from preview_walk.robots.reading.mjcf import compile_spec
 from preview_walk.robots.reading.shapes import add_bones, add_shapes
 from preview_walk.robots.reading.source import read_source

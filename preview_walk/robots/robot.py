@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.geometry.support import Sole
-from preview_walk.robots.building.posture import Leg
+from preview_walk.robots.building.leg import Leg
 from preview_walk.robots.finding.soles import SolePatch
 from preview_walk.robots.finding.structure import Structure
 from preview_walk.robots.finding.tree import Tree

@@ -55,7 +55,10 @@ def standing_configuration(robot: Robot, left: Array, right: Array) -> Array:
     def residual(q: Array) -> tuple[Array, Array]:
         pin.computeJointJacobians(model, data, q)
         pin.updateFramePlacements(model, data)
-        terms = [sole_rows(model, data, stance.soles[f], target) for f, target in targets.items()]
+        terms = [
+            sole_rows(model, data, stance.soles[foot], targets[foot], robot.legs[foot].unplaced)
+            for foot in FEET
+        ]
         errors, rows = map(list, zip(*terms, strict=True))
         errors.append(pin.centerOfMass(model, data, q) - com)
         rows.append(pin.jacobianCenterOfMass(model, data, q))

@@ -52,13 +52,17 @@ class FootTask:
         stiffness, damping: of the feedback, critically damped, 1/s^2, 1/s.
         pose: (4, 4) wanted, world, m.
         velocity, acceleration: (6,) wanted [linear; angular], world, m/s, rad/s (and per s).
+        unplaced: rows, in the sole's axes, of what the leg cannot do and is not asked for.
     """
 
     rows = 6
 
-    def __init__(self, foot: Foot, weight: float, frequency: float) -> None:
+    def __init__(
+        self, foot: Foot, weight: float, frequency: float, unplaced: Sequence[int] = ()
+    ) -> None:
         self.foot: Foot = foot
         self.weight = weight
+        self.unplaced = list(unplaced)
         self.stiffness, self.damping = frequency**2, 2.0 * frequency
         self.pose: Array = np.eye(4)
         self.velocity: Array = np.zeros(6)
@@ -77,6 +81,8 @@ class FootTask:
         target[3:] += self.stiffness * pin.log3(rotation.T @ pose[:3, :3])
         target -= self.damping * terms.velocity
         target -= terms.drift
+        if self.unplaced:
+            jacobian[self.unplaced], target[self.unplaced] = 0.0, 0.0
 
 
 class TorsoTask:

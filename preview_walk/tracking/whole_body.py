@@ -11,7 +11,7 @@ import numpy as np
 import qpsolvers
 
 from preview_walk.errors import InvalidInput
-from preview_walk.robots.building.posture import leg_joints
+from preview_walk.robots.building.leg import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.contacts import load_shares
 from preview_walk.tracking.dynamics import Dynamics
@@ -80,7 +80,10 @@ class WholeBodyController:
         self.backend: Backend = make_backend(solver)
         self.dynamics = Dynamics(robot)
         self.com = CoMTask(gains.com_weight)
-        self.foot_tasks = {foot: FootTask(foot, gains.foot_weight, gains.foot) for foot in FEET}
+        self.foot_tasks = {
+            foot: FootTask(foot, gains.foot_weight, gains.foot, robot.legs[foot].unplaced)
+            for foot in FEET
+        }
         self.torso = TorsoTask(gains.torso_weight, gains.torso)
         self.tasks: list[Task] = [self.com, self.torso]
         self.momentum = AngularMomentumTask(gains.momentum_weight, gains.momentum)
@@ -228,6 +231,7 @@ def _posture_task(robot: Robot, gains: TrackingGains) -> PostureTask:
         int(joints[joint].idx_v) - 6
         for foot in FEET
         for joint in leg_joints(robot.pin, robot.soles[foot].frame)
+        if joint not in robot.legs[foot].spare
     ]
     weight = np.full(robot.pin.nv - 6, gains.posture_weight)
     # The trunk is one body: its joints keep the pelvis with the torso, whose task is upright.

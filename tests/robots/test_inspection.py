@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from preview_walk.robots.inspection import inspect_robot, one_leg_torques
+from preview_walk.robots.inspection import inspect_robot
 from preview_walk.robots.listing import list_robots
 from preview_walk.robots.load import load_robot
+from preview_walk.robots.problems import one_leg_torques
 from preview_walk.robots.reading.description import catalogue, models_folder
 
 

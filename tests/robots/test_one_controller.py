@@ -8,7 +8,8 @@ from pathlib import Path
 
 import preview_walk
 from preview_walk.robots.load import load_robot
-from preview_walk.robots.reading.description import Description, SoleFact, catalogue
+from preview_walk.robots.reading.description import catalogue
+from preview_walk.robots.reading.facts import Description, SoleFact
 
 PACKAGE = Path(preview_walk.__file__).parent
 
@@ -66,5 +67,6 @@ def test_a_description_holds_facts_only() -> None:
         "torso",
         "soles",
         "posture",
+        "limits",
     ]
-    assert [field.name for field in fields(SoleFact)] == ["body", "size", "center"]
+    assert [field.name for field in fields(SoleFact)] == ["body", "size", "center", "rpy"]

@@ -3,10 +3,13 @@
 import re
 import xml.etree.ElementTree as ElementTree
 from functools import cache
+from itertools import pairwise
 
 import mujoco
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.inspection import inspect_robot
@@ -158,7 +161,7 @@ def test_a_leg_joint_that_mimics_is_refused(urdf, load):
     with pytest.raises(
         RobotError,
         match=r"^the leg joint 'right_hip_yaw' is driven by 'left_hip_yaw'; "
-        "every leg joint must move on its own$",
+        "every leg joint must move on its own: leave the coupling out, and give the joint a motor$",
     ):
         load(urdf)
 
@@ -225,9 +228,8 @@ def test_an_inertia_no_solid_has_is_raised(urdf, load):
         ),
         (
             lambda root: joint(root, "left_knee").set("type", "fixed"),
-            "no two legs found: expected two limbs of at least 6 joints, the lowest of the robot, "
-            "on one body; its limbs end at 'left_elbow' (3 joints), 'right_elbow' (3 joints), "
-            "'left_foot' (5 joints), 'right_foot' (6 joints)",
+            "the leg from 'left_hip_yaw' to 'left_ankle_roll' has 2 joint(s) about the lateral "
+            "axis (left_hip_pitch, left_ankle_pitch); expected hip, knee and ankle",
         ),
     ],
 )
@@ -301,3 +303,40 @@ def test_model_compiled_from_a_urdf(urdf):
 def test_a_urdf_that_is_called_xml(urdf, tmp_path):
     ElementTree.ElementTree(urdf).write(tmp_path / "walker.xml")
     assert load_robot(tmp_path / "walker.xml").joint_names == original().joint_names
+
+
+@pytest.mark.parametrize("kind", ["prismatic", "planar"])
+def test_massless_joints_that_carry_the_root(urdf, load, kind):
+    """As in models for planners: the base's own degrees of freedom, drawn as joints."""
+    count = 1 if kind == "planar" else 6
+    names = [f"carrier_{i}" for i in range(count)] + ["pelvis"]
+    for i, (above, below) in enumerate(pairwise(names)):
+        ElementTree.SubElement(urdf, "link", name=above)
+        turning = kind == "prismatic" and i > 2
+        element = ElementTree.SubElement(
+            urdf, "joint", name=f"virtual_{i}", type="revolute" if turning else kind
+        )
+        ElementTree.SubElement(element, "parent", link=above)
+        ElementTree.SubElement(element, "child", link=below)
+    robot = load(urdf)
+    assert robot.joint_names == original().joint_names
+    virtual = ", ".join(f"virtual_{i}" for i in range(count))
+    assert f"joints between world and base became a free joint: {virtual}" in robot.notes
+
+
+@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+@given(
+    place=st.integers(0, 10**6),
+    number=st.sampled_from(("nan", "inf", "-inf", "1e30", "-1e30", "1e-300", "-1", "", "x")),
+)
+def test_any_number_of_a_urdf_is_taken_or_told(tmp_path, place, number):
+    text = ElementTree.tostring(urdf_of(original()), encoding="unicode")
+    spots = [match.span() for match in re.finditer(r"(?<=[\" ])-?\d+\.\d+(?=[\" ])", text)]
+    start, end = spots[place % len(spots)]
+    (tmp_path / "walker.urdf").write_text(text[:start] + number + text[end:])
+    report = inspect_robot(tmp_path / "walker.urdf")
+    if report.robot is None:
+        assert "\n" not in report.problems[0]
+    else:
+        assert np.isfinite(report.robot.posture).all()
+        assert 1.0 < report.robot.mass < 1e4

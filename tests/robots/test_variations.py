@@ -135,7 +135,10 @@ def test_a_weld_to_the_scene_is_left_out(spec, original):
         name2="world",
     )
     robot = load_robot(spec)
-    assert "the constraint 'crane' to the scene is left out" in robot.notes
+    assert (
+        "the scene holds the robot by the weld 'crane' between 'torso' and 'world', which is left "
+        "out here"
+    ) in robot.notes
     same_walk(robot, original)
 
 

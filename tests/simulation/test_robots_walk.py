@@ -9,7 +9,7 @@ import preview_walk as pw
 from preview_walk.controller.robot_limits import command_limits
 from preview_walk.footsteps.gaits import turn_in_place
 from preview_walk.record.summary import Summary
-from preview_walk.robots.inspection import one_leg_torques
+from preview_walk.robots.problems import one_leg_torques
 from preview_walk.robots.robot import Robot
 
 

@@ -36,13 +36,14 @@ def test_the_long_steps_of_fast_walks_are_not(talos: Robot, length: float) -> No
 
 
 def test_scheduled_commands_come_at_their_times_and_end_in_a_stop(talos: Robot) -> None:
-    walk = pw.Walk.standing(talos, (1.0, 2.0, np.pi / 2))
     obeyed: list[tuple[float, tuple[float, ...]]] = []
-    command = walk.command
-    walk.command = lambda *velocity: (  # type: ignore[method-assign]
-        obeyed.append((walk.time, velocity)),
-        command(*velocity),
-    )[1]
+
+    def watch(walk: pw.Walk) -> None:
+        current = walk._commands.current
+        if current != (obeyed[-1][1] if obeyed else (0.0, 0.0, 0.0)):
+            obeyed.append((walk.time, current))
+
+    walk = pw.Walk.standing(talos, (1.0, 2.0, np.pi / 2), on_tick=watch)
     walk.schedule([((0.2, 0.0, 0.0), 1.0), ((0.0, 0.0, 0.3), 0.25)])
     record = walk.run().record()
     times, velocities = zip(*obeyed, strict=True)

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.building.engines import in_two_engines, joint_limits, torso_frame
-from preview_walk.robots.building.motors import joint_efforts
+from preview_walk.robots.building.motors import joint_efforts, with_driven_legs
 from preview_walk.robots.building.stand import stand
-from preview_walk.robots.finding.soles import SolePatch, find_sole, sole_axes
+from preview_walk.robots.finding.constraints import settle
+from preview_walk.robots.finding.overlaps import overlaps
+from preview_walk.robots.finding.soles import SolePatch, find_sole, rocks, sole_axes
 from preview_walk.robots.finding.structure import Structure, find_structure
-from preview_walk.robots.reading.description import Description
-from preview_walk.robots.reading.mjcf import settle
+from preview_walk.robots.reading.facts import Description, MotorLimit
 from preview_walk.robots.reading.source import Source, foot_shapes
 from preview_walk.robots.robot import Blueprint, Robot
 from preview_walk.types import FEET, Foot
@@ -33,21 +34,29 @@ def build_robot(description: Description, source: Source) -> Robot:
     tree = source.tree
     given = {foot: fact.body for foot, fact in description.soles.items()}
     parts = find_structure(tree, given, description.torso)
+    efforts, pushed = _efforts(source, parts.base, description.limits)
+    parts, passive = with_driven_legs(tree, parts, efforts)
     leg_joints = {joint for leg in parts.legs.values() for joint in leg}
     mimics = {} if source.urdf is None else source.urdf.mimics
-    locked, settled = settle(tree, parts.base, leg_joints, mimics)
-    motors, pushed = _motors(source, parts.base, leg_joints)
+    driven, settled = settle(tree, parts.base, leg_joints, mimics)
+    locked = driven | passive
+    motors = {tree.joint_name(joint): effort for joint, effort in efforts.items()}
     soles, seen = _soles(description, source, parts)
     engines, changed = in_two_engines(tree, parts.base, locked, soles, motors)
     mj, model = engines.mj, engines.pin
     names = [str(name) for name in model.names[2:]]
     effort = np.array([motors.get(name, 0.0) for name in names])
     posture, legs, freed, stood = stand(engines, tree, parts, description.posture, effort)
+    meeting = overlaps(tree, parts.base, dict(zip(names, posture[7:], strict=True)))
+    if meeting:
+        stood.append(f"shapes that can touch overlap in the walking posture: {', '.join(meeting)}")
     low, high = joint_limits(mj)
     data = model.createData()
     com = pin.centerOfMass(model, data, posture)
     pin.framesForwardKinematics(model, data, posture)
     left, right = (data.oMf[engines.soles[f].frame].translation for f in FEET)
+    said = {name: limit.speed for name, limit in description.limits.items() if limit.speed}
+    speed = {**source.speed, **said}
     file = None if source.urdf is None else source.urdf.file
     return Robot(
         name=description.name,
@@ -60,7 +69,7 @@ def build_robot(description: Description, source: Source) -> Robot:
         effort=effort,
         q_lower=low,
         q_upper=high,
-        v_limit=np.array([source.speed.get(name, np.inf) for name in names]),
+        v_limit=np.array([speed.get(name, np.inf) for name in names]),
         damping=np.array(mj.dof_damping[6:]),
         posture=posture,
         mass=float(mj.body_mass.sum()),
@@ -73,20 +82,20 @@ def build_robot(description: Description, source: Source) -> Robot:
     )
 
 
-def _motors(
-    source: Source, base: int, leg_joints: Collection[int]
-) -> tuple[Mapping[str, float], list[str]]:
-    """Return the torque limits (N·m) of the motors by joint name, and remarks."""
+def _efforts(
+    source: Source, base: int, limits: Mapping[str, MotorLimit]
+) -> tuple[Mapping[int, float], list[str]]:
+    """Return the torque limits (N·m) of the motors by joint, as read or as said, and remarks."""
     tree = source.tree
-    mass = float(tree.mj.body_subtreemass[base])
-    efforts, notes = joint_efforts(tree, source.urdf is not None, mass)
-    for joint in sorted(leg_joints):
-        if not efforts.get(joint, 0.0) > 0.0:
+    own = {tree.joint_name(joint): joint for joint in tree.joints_on(tree.below(base))}
+    for name in limits:
+        if name not in own:
             raise RobotError(
-                f"the leg joint '{tree.joint_name(joint)}' has no motor; "
-                "expected one on every leg joint"
+                f"the limits name the joint '{name}', which the model lacks; "
+                f"it has {', '.join(own)}"
             )
-    return {tree.joint_name(joint): effort for joint, effort in efforts.items()}, notes
+    said = {own[name]: limit.torque for name, limit in limits.items() if limit.torque}
+    return joint_efforts(tree, base, source.urdf is not None, said)
 
 
 def _soles(
@@ -99,10 +108,18 @@ def _soles(
         body = parts.feet[foot]
         axes = sole_axes(source.tree, body, parts.up, parts.forward)
         fact = description.soles.get(foot)
+        if fact is not None and fact.rpy is not None:
+            axes = pin.rpy.rpyToMatrix(np.array(fact.rpy))
         if fact is not None and fact.size is not None:
             soles[foot] = SolePatch(fact.body, np.array(fact.center), axes, fact.size)
         else:
             tree, seen = foot_shapes(source, body)
             notes += seen
             soles[foot] = find_sole(tree, body, axes)
+            below = rocks(tree, body, soles[foot])
+            if below > 0.0:
+                notes.append(
+                    f"a shape of '{soles[foot].body}' reaches {1e3 * below:.1f} mm below the flat "
+                    "of its sole: in its own scene the foot rocks on it"
+                )
     return soles, notes

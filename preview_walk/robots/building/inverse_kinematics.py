@@ -61,11 +61,24 @@ def leg_coordinates(model: pin.Model, legs: Mapping[Foot, Sequence[int]]) -> lis
     return [*range(6), *(model.joints[joint].idx_v for foot in FEET for joint in legs[foot])]
 
 
-def sole_rows(model: pin.Model, data: pin.Data, frame: int, target: pin.SE3) -> tuple[Array, Array]:
+def sole_rows(
+    model: pin.Model,
+    data: pin.Data,
+    frame: int,
+    target: pin.SE3,
+    unplaced: Sequence[int] = (),
+) -> tuple[Array, Array]:
     """Return how far a sole is from a pose (6,), [linear; angular], and the Jacobian (6, nv).
 
-    `data` holds the joints' Jacobians and the frames' placements.
+    Args:
+        model: the robot.
+        data: holds the joints' Jacobians and the frames' placements.
+        frame: the sole frame.
+        target: where it should be.
+        unplaced: the directions that do not matter; their rows are zero.
     """
     miss = target.actInv(data.oMf[frame])
     jacobian = pin.getFrameJacobian(model, data, frame, pin.ReferenceFrame.LOCAL)
-    return pin.log6(miss).vector, pin.Jlog6(miss) @ jacobian
+    error, rows = pin.log6(miss).vector, pin.Jlog6(miss) @ jacobian
+    error[list(unplaced)], rows[list(unplaced)] = 0.0, 0.0
+    return error, rows

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.bounds import LARGEST_GAIN, SMALLEST_EFFORT
+from preview_walk.robots.finding.legs import LEG_JOINTS
+from preview_walk.robots.finding.structure import Structure
 from preview_walk.robots.finding.tree import Tree
 
 ASSUMED = 3.0
@@ -14,47 +20,56 @@ ASSUMED = 3.0
 _JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
 
 
-def joint_efforts(tree: Tree, implied: bool, mass: float) -> tuple[dict[int, float], list[str]]:
+def joint_efforts(
+    tree: Tree, base: int, implied: bool, said: Mapping[int, float]
+) -> tuple[dict[int, float], list[str]]:
     """Return the largest torque (N·m) of every joint with a motor, by joint id, and remarks.
 
     A motor without a force limit gets `ASSUMED` times the robot's mass.
 
     Args:
         tree: the model.
+        base: its floating body; joints that it does not carry are somebody else's.
         implied: whether every joint has a motor even without an actuator, as in a URDF.
-        mass: of the robot, kg.
+        said: torque limits (N·m) by joint id that take the place of the model's.
 
     Raises:
         RobotError: the model has no motors at all.
     """
-    mj = tree.mj
+    mj, mass = tree.mj, float(tree.mj.body_subtreemass[base])
+    moving = tree.joints_on(tree.below(base))
     push: dict[int, tuple[float, float]] = {}
     replaced = 0
     for actuator in range(mj.nu):
-        if int(mj.actuator_trntype[actuator]) not in _JOINT:
-            continue
         joint = int(mj.actuator_trnid[actuator, 0])
+        if int(mj.actuator_trntype[actuator]) not in _JOINT or joint not in moving:
+            continue
         low, high, torque = _range(mj, actuator)
         replaced += not torque
         before = push.get(joint, (0.0, 0.0))
         push[joint] = (before[0] + low, before[1] + high)
-    moving = [j for j in tree.joints_on(list(range(1, mj.nbody)))]
     if mj.nu == 0:
         push = {j: (-np.inf, np.inf) for j in moving if implied or mj.jnt_actfrclimited[j]}
+    push.update({joint: (-effort, effort) for joint, effort in said.items()})
     if not push:
         raise RobotError(
             "the model has no motors: expected an actuator, or an effort limit, for every joint"
         )
     efforts, assumed = {}, []
     for joint, (low, high) in push.items():
-        if mj.jnt_actfrclimited[joint]:
+        if mj.jnt_actfrclimited[joint] and joint not in said:
             low = max(low, float(mj.jnt_actfrcrange[joint, 0]))
             high = min(high, float(mj.jnt_actfrcrange[joint, 1]))
         effort = min(-low, high)
-        if not effort < np.inf:
+        if not effort <= LARGEST_GAIN:  # as good as none
             effort = ASSUMED * mass
             assumed.append(tree.joint_name(joint))
-        efforts[joint] = max(0.0, effort)
+        if effort != 0.0 and not effort >= SMALLEST_EFFORT:
+            raise RobotError(
+                f"the motor of the joint '{tree.joint_name(joint)}' gives {effort:g} N·m; "
+                f"expected 0 or at least {SMALLEST_EFFORT:g}"
+            )
+        efforts[joint] = effort
     notes = []
     if replaced:
         notes.append(f"{replaced} position, velocity or other actuators became torque motors")
@@ -64,6 +79,47 @@ def joint_efforts(tree: Tree, implied: bool, mass: float) -> tuple[dict[int, flo
             + ", ".join(assumed)
         )
     return efforts, notes
+
+
+def with_driven_legs(
+    tree: Tree, parts: Structure, efforts: Mapping[int, float]
+) -> tuple[Structure, set[int]]:
+    """Return a robot's parts with the legs' driven joints alone, and the passive ones (ids).
+
+    A joint that has no motor in either leg, as a spring in an ankle, is passive: it stays where it
+    is, and the other joints of the leg must do.
+
+    Args:
+        tree: the model.
+        parts: its parts.
+        efforts: torque limits (N·m) by joint id.
+
+    Raises:
+        RobotError: a leg joint that has no motor while that of the other leg has, or without which
+            the leg cannot do.
+    """
+    driven = {
+        foot: tuple(joint for joint in leg if efforts.get(joint, 0.0) > 0.0)
+        for foot, leg in parts.legs.items()
+    }
+    lacking = {
+        foot: tuple(place for place, joint in enumerate(leg) if joint not in driven[foot])
+        for foot, leg in parts.legs.items()
+    }
+    passive = {joint for foot, leg in parts.legs.items() for joint in leg} - {
+        joint for leg in driven.values() for joint in leg
+    }
+    alike = lacking["left"] == lacking["right"]
+    if passive and not (alike and min(map(len, driven.values())) >= LEG_JOINTS):
+        raise RobotError(
+            f"the leg joint '{tree.joint_name(min(passive))}' has no motor; "
+            "expected one on every leg joint"
+        )
+    if not passive:
+        return parts, passive
+    names = ", ".join(tree.joint_name(joint) for joint in sorted(passive))
+    note = f"locked, because no motor moves them: {names}"
+    return replace(parts, legs=driven, notes=(*parts.notes, note)), passive
 
 
 def _range(mj: mujoco.MjModel, actuator: int) -> tuple[float, float, bool]:

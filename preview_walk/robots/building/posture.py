@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import pinocchio as pin
@@ -16,97 +15,11 @@ from preview_walk.robots.building.inverse_kinematics import (
     leg_coordinates,
     sole_rows,
 )
+from preview_walk.robots.building.leg import Leg, bent, knees_forward
 from preview_walk.types import FEET, Array, Foot
-
-LATERAL = 0.8
-"""Least cosine between a joint's axis and the lateral direction for it to bend the leg."""
 
 MARGIN = 0.05
 """Distance (rad, m) kept from joint limits by joints that the posture does not name."""
-
-
-@dataclass(frozen=True)
-class Leg:
-    """A leg: its Pinocchio joints, three of which bend it.
-
-    Attributes:
-        joints: all of them, pelvis first.
-        hip: the one that swings the thigh.
-        knee: the one that bends the leg.
-        ankle: the one that pitches the foot.
-        bend: sign of a flexing knee's angle.
-        length: sum of thigh, shank and foot, m.
-    """
-
-    joints: tuple[int, ...]
-    hip: int
-    knee: int
-    ankle: int
-    bend: float
-    length: float
-
-
-def leg_joints(model: pin.Model, frame: int) -> list[int]:
-    """Return the joints from the floating base (exclusive) to a frame, root first."""
-    chain = [int(j) for j in model.supports[model.frames[frame].parentJoint]]
-    return [j for j in chain if j > 1]
-
-
-def find_leg(model: pin.Model, q: Array, joints: tuple[int, ...], sole: int, lateral: Array) -> Leg:
-    """Return a leg by its joints: those about the `lateral` direction (3,) bend it.
-
-    The leg's length is the longest distance from hip to sole: between the axes of hip, knee and
-    ankle, seen along the knee's axis, and from the ankle to the sole plane.
-
-    Args:
-        model: the robot.
-        q: any posture (nq,) in which the leg's side is `lateral`.
-        joints: the leg's joints, pelvis first.
-        sole: the sole frame.
-        lateral: the direction (3,) to the left, in world axes.
-
-    Raises:
-        RobotError: fewer than three joints bend the leg.
-    """
-    data = model.createData()
-    pin.framesForwardKinematics(model, data, q)
-    axes = _axes(model, q)
-    turns = {j: float(axes[:, model.joints[j].idx_v] @ lateral) for j in joints}
-    bending = [j for j in joints if abs(turns[j]) > LATERAL]
-    if len(bending) < 3:
-        names = ", ".join(model.names[j] for j in bending) or "none"
-        raise RobotError(
-            f"the leg from '{model.names[joints[0]]}' to '{model.names[joints[-1]]}' has "
-            f"{len(bending)} joint(s) about the lateral axis ({names}); "
-            "expected hip, knee and ankle"
-        )
-    hip, knee, ankle = bending[:3]
-    axis = axes[:, model.joints[knee].idx_v]
-    side = np.eye(3) - np.outer(axis, axis)
-    points = [side @ data.oMi[j].translation for j in (hip, knee, ankle)]
-    sole_pose = data.oMf[sole]
-    drop = sole_pose.rotation[:, 2] @ (data.oMi[ankle].translation - sole_pose.translation)
-    length = sum(float(np.linalg.norm(b - a)) for a, b in pairwise(points)) + float(drop)
-    return Leg(joints, hip, knee, ankle, float(np.sign(turns[knee])), length)
-
-
-def _axes(model: pin.Model, q: Array) -> Array:
-    """Return every degree of freedom's axis of rotation (3, nv) in the world, 0 for slides."""
-    return np.array(pin.computeJointJacobians(model, model.createData(), q)[3:])
-
-
-def knees_forward(model: pin.Model, legs: Mapping[Foot, Leg]) -> float:
-    """Return 1 for knees that point forward when they bend, as ours, -1 for a bird's.
-
-    Both knees together decide, by their limits; without limits they bend as ours.
-    """
-    room = 0.0
-    for leg in legs.values():
-        at = model.joints[leg.knee].idx_q
-        low, high = model.lowerPositionLimit[at], model.upperPositionLimit[at]
-        if np.isfinite(low) and np.isfinite(high):
-            room += leg.bend * float(low + high)
-    return 1.0 if room >= 0.0 else -1.0
 
 
 def resting(
@@ -165,7 +78,7 @@ class Stance:
     @property
     def free(self) -> list[int]:
         """The velocity coordinates that inverse kinematics may move: base and legs."""
-        return leg_coordinates(self.model, {foot: leg.joints for foot, leg in self.legs.items()})
+        return leg_coordinates(self.model, {foot: leg.placing for foot, leg in self.legs.items()})
 
 
 def walking_posture(stance: Stance, q: Array, stretch: float, lean: float = 0.0) -> Array:
@@ -187,11 +100,8 @@ def walking_posture(stance: Stance, q: Array, stretch: float, lean: float = 0.0)
     q = np.array(q)
     upright = pin.Quaternion(q[3:7]).toRotationMatrix()
     forward = knees_forward(model, legs)
-    lateral = np.sign(_axes(model, q)[1])
     for leg in legs.values():
-        for joint, angle in ((leg.hip, -0.4), (leg.knee, 0.8), (leg.ankle, -0.4)):
-            bend = model.joints[joint]
-            q[bend.idx_q] = forward * lateral[bend.idx_v] * angle
+        q = bent(model, q, leg, forward)
     height = stretch * min(leg.length for leg in legs.values())
     data = model.createData()
 
@@ -219,7 +129,9 @@ def _residual(
     errors, rows = [], []
     for foot, side in zip(FEET, (0.5, -0.5), strict=True):
         target = pin.SE3(np.eye(3), np.array([0.0, side * stance.width, 0.0]))
-        error, jacobian = sole_rows(model, data, stance.soles[foot], target)
+        error, jacobian = sole_rows(
+            model, data, stance.soles[foot], target, stance.legs[foot].unplaced
+        )
         errors.append(error)
         rows.append(jacobian)
     errors.append(pin.log3(data.oMi[1].rotation @ upright.T))

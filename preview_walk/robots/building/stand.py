@@ -8,7 +8,8 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.robots.building.engines import Engines, joint_limits, set_limits
-from preview_walk.robots.building.posture import Leg, Stance, find_leg, resting, walking_posture
+from preview_walk.robots.building.leg import Leg, find_leg
+from preview_walk.robots.building.posture import Stance, resting, walking_posture
 from preview_walk.robots.building.statics import CROUCHED, straightened
 from preview_walk.robots.finding.structure import Structure
 from preview_walk.robots.finding.tree import Tree

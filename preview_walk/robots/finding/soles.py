@@ -18,6 +18,9 @@ from preview_walk.types import Array
 LAYER = 0.004
 """Height (m) of the layer above the lowest point whose points count as touching the floor."""
 
+EVEN = 0.0005
+"""Unevenness (m) of a sole that its contact with the ground levels out."""
+
 TILTED = np.radians(30.0)
 """Largest angle between the vertical and the normal of a foot's flat in the reference pose."""
 
@@ -96,6 +99,26 @@ def find_sole(tree: Tree, body: int, axes: Array) -> SolePatch:
     )
 
 
+def rocks(tree: Tree, body: int, patch: SolePatch) -> float:
+    """Return how far (m) a foot's lowest point is below the flat that its sole was found on.
+
+    0.0 for a foot that stands on all its sole; a foot with a round shape below its flat rocks.
+
+    Args:
+        tree: the model, with its shapes.
+        body: the foot.
+        patch: its sole.
+    """
+    points = np.array(list(_points(tree, body, patch.rotation[:, 2])))
+    local = points @ patch.rotation
+    height = local[:, 2] - local[:, 2].min()
+    for layer in np.arange(EVEN, LAYER, EVEN):
+        x0, x1, y0, y1 = inscribed_rectangle(local[height < layer + 1e-9, :2])
+        if x1 - x0 > patch.size.half_length and y1 - y0 > patch.size.half_width:
+            return 0.0 if layer == EVEN else float(layer)
+    return LAYER
+
+
 def _rectangle(points: Array, axes: Array) -> tuple[Array, tuple[float, float]]:
     """Return centre (3,) and half sizes of the largest rectangle among the lowest of points."""
     local = points @ axes
@@ -172,12 +195,20 @@ def _points(tree: Tree, body: int, up: Array) -> Iterator[Array]:
     rotation, position = tree.rotation(body), tree.position(body)
     part = set(tree.rigid_part(body))
     geoms = [g for g in range(mj.ngeom) if int(mj.geom_bodyid[g]) in part]
-    touching = [g for g in geoms if mj.geom_contype[g] or mj.geom_conaffinity[g]]
+    paired = _paired(mj)
+    touching = [g for g in geoms if mj.geom_contype[g] or mj.geom_conaffinity[g] or g in paired]
     for geom in touching or geoms:
         turn = rotation.T @ np.array(data.geom_xmat[geom]).reshape(3, 3)
         at = rotation.T @ (np.array(data.geom_xpos[geom]) - position)
         for point in _shape_points(mj, geom, turn.T @ up):
             yield at + turn @ point
+
+
+def _paired(mj: mujoco.MjModel) -> set[int]:
+    """Return the geoms whose contacts with another tree of bodies are declared one by one."""
+    ends = np.column_stack((mj.pair_geom1, mj.pair_geom2))
+    roots = mj.body_rootid[mj.geom_bodyid[ends]]
+    return set(ends[roots[:, 0] != roots[:, 1]].ravel().tolist())
 
 
 def _shape_points(mj: mujoco.MjModel, geom: int, up: Array) -> Array:

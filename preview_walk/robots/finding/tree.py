@@ -52,6 +52,15 @@ class Tree:
         """Return a body's rotation (3, 3)."""
         return np.array(self.data.xmat[body]).reshape(3, 3)
 
+    def anchor(self, joint: int) -> Array:
+        """Return the anchor (3,) of a joint."""
+        body = int(self.mj.jnt_bodyid[joint])
+        return np.asarray(self.position(body) + self.rotation(body) @ self.mj.jnt_pos[joint])
+
+    def axis(self, joint: int) -> Array:
+        """Return the axis (3,) of a joint."""
+        return np.asarray(self.rotation(int(self.mj.jnt_bodyid[joint])) @ self.mj.jnt_axis[joint])
+
     def path(self, body: int) -> list[int]:
         """Return the bodies from below the world to a body, both inclusive."""
         path = []

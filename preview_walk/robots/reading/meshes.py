@@ -10,6 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from preview_walk.robots.bounds import LARGEST
+from preview_walk.robots.reading.content import is_there
 from preview_walk.types import Array
 
 GREY = (0.7, 0.7, 0.72, 1.0)
@@ -33,7 +35,7 @@ def mesh_file(filename: str, urdf: Path) -> Path | None:
     rest = Path(*Path(bare).parts[1:]) if len(Path(bare).parts) > 1 else Path(bare)
     for above in urdf.resolve().parents:
         candidates += [above / bare, above / rest]
-    return next((file for file in candidates if file.is_file()), None)
+    return next((file for file in candidates if is_there(file)), None)
 
 
 def read_mesh(file: Path) -> list[Piece]:
@@ -41,9 +43,9 @@ def read_mesh(file: Path) -> list[Piece]:
 
     STL needs nothing but numpy; other formats need the optional trimesh (and pycollada for DAE).
     """
-    if file.suffix.lower() == ".stl" and (piece := _binary_stl(file)) is not None:
-        return [piece]
     try:
+        if file.suffix.lower() == ".stl" and (piece := _binary_stl(file)) is not None:
+            return [piece]
         import trimesh
 
         scene = trimesh.load_scene(file)
@@ -101,9 +103,11 @@ def _colour(visual: Any) -> tuple[float, float, float, float] | None:
 def add_piece(
     spec: mujoco.MjSpec, body: mujoco.MjsBody, name: str, piece: Piece, scale: Array
 ) -> mujoco.MjsGeom | None:
-    """Add a piece to a body as a mesh geom; None where it is too flat or too small to be one."""
+    """Add a piece to a body as a mesh geom; None where it is too flat, small or large to be one."""
     vertices = piece.vertices * scale
-    if len(vertices) < 4 or float(np.ptp(vertices, axis=0).min()) < 1e-6:
+    if len(vertices) < 4 or not np.abs(vertices).max() < LARGEST:
+        return None
+    if float(np.ptp(vertices, axis=0).min()) < 1e-6:
         return None
     faces = piece.faces if float(np.prod(scale)) > 0.0 else piece.faces[:, ::-1]
     if spec.mesh(name) is None:

@@ -7,8 +7,11 @@ from collections.abc import Collection
 import mujoco
 import numpy as np
 
+from preview_walk.errors import RobotError
+from preview_walk.robots.bounds import LARGEST
+from preview_walk.robots.reading.links import Element
 from preview_walk.robots.reading.meshes import GREY, add_piece, mesh_file, read_mesh
-from preview_walk.robots.reading.urdf import Element, UrdfFile, number, origin, quaternion, vector
+from preview_walk.robots.reading.urdf import UrdfFile, number, origin, quaternion, vector
 from preview_walk.types import Array
 
 BONE = 0.025
@@ -16,6 +19,14 @@ BONE = 0.025
 
 VISUAL_GROUP = 2
 """MuJoCo geom group of what is only looked at."""
+
+
+_KINDS = {
+    "box": mujoco.mjtGeom.mjGEOM_BOX,
+    "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+    "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+    "capsule": mujoco.mjtGeom.mjGEOM_CAPSULE,
+}
 
 
 def add_shapes(
@@ -81,20 +92,46 @@ def _add_shape(
             if geom is not None:
                 finish(geom, position, quat, piece.rgba or colour or GREY)
         return
-    kinds = {
-        "box": mujoco.mjtGeom.mjGEOM_BOX,
-        "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
-        "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
-        "capsule": mujoco.mjtGeom.mjGEOM_CAPSULE,
-    }
-    if shape.tag not in kinds:
-        return
+    size = _size(shape)
+    if size is not None and size[0] > 0.0:
+        kind = _KINDS[shape.tag]
+        finish(body.add_geom(type=kind, size=size), position, quat, colour or GREY)
+
+
+def check_shapes(urdf: UrdfFile) -> None:
+    """Check the sizes and places of all shapes of a URDF, those for looks included.
+
+    Raises:
+        RobotError: a size that no robot has; names the link.
+    """
+    for link in urdf.robot.findall("link"):
+        for element in (*link.findall("visual"), *link.findall("collision")):
+            place, _ = origin(element)
+            if not (np.abs(place) <= LARGEST).all():
+                text = ", ".join(f"{side:g}" for side in place)
+                raise RobotError(
+                    f"the link '{link.get('name')}' has a shape at ({text}) m; "
+                    f"expected -{LARGEST:g} to {LARGEST:g}"
+                )
+            for shape in element.findall("geometry/*"):
+                size = _size(shape)
+                if size is not None and not ((size >= 0.0) & (size <= LARGEST)).all():
+                    text = " x ".join(f"{side:g}" for side in size)
+                    raise RobotError(
+                        f"the link '{link.get('name')}' has a {shape.tag} of the half sizes {text} "
+                        f"m; expected 0 to {LARGEST:g}"
+                    )
+
+
+def _size(shape: Element) -> Array | None:
+    """Return MuJoCo's size (3,) of a simple shape in a URDF, a mesh's scale, None for others."""
+    if shape.tag == "mesh":
+        return np.abs(vector(shape, "scale", (1.0, 1.0, 1.0)))
     if shape.tag == "box":
-        size = vector(shape, "size", (0.0, 0.0, 0.0)) / 2
-    else:
-        size = np.array((number(shape, "radius"), number(shape, "length") / 2, 0.0))
-    if size[0] > 0.0:
-        finish(body.add_geom(type=kinds[shape.tag], size=size), position, quat, colour or GREY)
+        return vector(shape, "size", (0.0, 0.0, 0.0)) / 2
+    if shape.tag in _KINDS:
+        return np.array((number(shape, "radius"), number(shape, "length") / 2, 0.0))
+    return None
 
 
 def add_bones(spec: mujoco.MjSpec) -> None:

@@ -9,9 +9,12 @@ import mujoco
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.finding.tree import Tree
-from preview_walk.robots.reading.description import Description, model_path
+from preview_walk.robots.reading.checks import check_numbers
+from preview_walk.robots.reading.content import content_of, is_there, shown
+from preview_walk.robots.reading.description import model_path
+from preview_walk.robots.reading.facts import Description
 from preview_walk.robots.reading.mjcf import compile_spec, read_mjcf
-from preview_walk.robots.reading.shapes import add_shapes
+from preview_walk.robots.reading.shapes import add_shapes, check_shapes
 from preview_walk.robots.reading.urdf import Urdf, read_urdf
 
 
@@ -44,18 +47,29 @@ def read_source(model: Description | mujoco.MjModel) -> Source:
     Raises:
         RobotError: a file that cannot be read or compiled.
     """
+    source = _read(model)
+    check_numbers(source.tree, source.speed)
+    return source
+
+
+def _read(model: Description | mujoco.MjModel) -> Source:
+    """Return a source whose numbers are not yet checked."""
     if isinstance(model, mujoco.MjModel):
         return Source(Tree(model), None, ())
     path = model_path(model.model)
-    if not path.is_file():
-        raise RobotError(f"the model file '{path}' does not exist")
-    if path.suffix.lower() != ".urdf" and "<robot" not in path.read_text(errors="replace"):
+    if not is_there(path):
+        raise RobotError(f"the model file '{shown(path)}' does not exist", argument="model")
+    if path.suffix.lower() != ".urdf" and b"<robot" not in content_of(path):
         mj, notes = read_mjcf(path)
         return Source(Tree(mj), None, notes)
     urdf = read_urdf(path)
+    check_shapes(urdf.file)
     mj, _ = compile_spec(urdf.spec, f"'{path}'")
-    notes = tuple(f"{flaw}: {', '.join(links)}" for flaw, links in urdf.flaws.items())
-    return Source(Tree(mj), urdf, notes)
+    remarks = [f"{flaw}: {', '.join(links)}" for flaw, links in urdf.flaws.items()]
+    if urdf.carrying:
+        names = ", ".join(urdf.carrying)
+        remarks.append(f"joints between world and base became a free joint: {names}")
+    return Source(Tree(mj), urdf, tuple(remarks))
 
 
 def foot_shapes(source: Source, body: int) -> tuple[Tree, list[str]]:

@@ -12,10 +12,11 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.errors import RobotError
+from preview_walk.robots.bounds import LARGEST
+from preview_walk.robots.reading.content import content_of
 from preview_walk.robots.reading.inertia import usable_inertia
+from preview_walk.robots.reading.links import Element, links_of
 from preview_walk.types import Array
-
-Element = ElementTree.Element
 
 _KINDS = {
     "revolute": mujoco.mjtJoint.mjJNT_HINGE,
@@ -47,6 +48,7 @@ class Urdf:
         speed: speed limits (rad/s) by joint name.
         mimics: the joint that is followed, by the name of the one that follows.
         flaws: what was wrong with inertias, and the links concerned.
+        carrying: joints that carry the base through its world, left out.
     """
 
     file: UrdfFile
@@ -54,6 +56,7 @@ class Urdf:
     speed: dict[str, float] = field(default_factory=dict)
     mimics: dict[str, str] = field(default_factory=dict)
     flaws: dict[str, list[str]] = field(default_factory=lambda: defaultdict(list))
+    carrying: tuple[str, ...] = ()
 
 
 def read_urdf(path: Path) -> Urdf:
@@ -66,54 +69,26 @@ def read_urdf(path: Path) -> Urdf:
         RobotError: a file that is not a URDF, or whose tree, joints or masses cannot be.
     """
     try:
-        robot = ElementTree.parse(path).getroot()
-    except (OSError, ElementTree.ParseError) as error:
+        robot = ElementTree.fromstring(content_of(path))
+    except (ElementTree.ParseError, LookupError, ValueError, RecursionError) as error:
         raise RobotError(f"cannot read '{path}' as a URDF: {error}") from error
     if robot.tag != "robot":
         raise RobotError(f"'{path}' holds <{robot.tag}>; expected a URDF, whose root is <robot>")
-    links = {str(link.get("name")): link for link in robot.findall("link")}
-    below: dict[str, list[tuple[Element, str]]] = {name: [] for name in links}
-    roots = dict.fromkeys(links)
-    for joint in robot.findall("joint"):
-        parent, child = (_end(joint, end, links) for end in ("parent", "child"))
-        below[parent].append((joint, child))
-        roots.pop(child, None)
-    if len(roots) != 1:
-        raise RobotError(
-            f"'{path.name}' has {len(roots)} root links"
-            + (f" ({', '.join(roots)})" if roots else "")
-            + "; expected one"
-        )
-    root = next(iter(roots))
-    while len(below[root]) == 1 and (
-        root == "world" or below[root][0][0].get("type") == "floating"
-    ):
-        root = below[root][0][1]
+    links = links_of(path.name, robot)
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
-    read = Urdf(UrdfFile(path, robot), spec)
-    base = spec.worldbody.add_body(name=root)
+    read = Urdf(UrdfFile(path, robot), spec, carrying=links.carrying)
+    base = spec.worldbody.add_body(name=links.root)
     base.add_freejoint(name="root")
-    _inertia(read, base, links[root], moving=False)
-    stack = [(base, item) for item in reversed(below[root])]
+    _inertia(read, base, links.named[links.root], moving=False)
+    stack = [(base, item) for item in reversed(links.below[links.root])]
     while stack:
         above, (joint, child) = stack.pop()
         position, rotation = origin(joint)
         body = above.add_body(name=child, pos=position, quat=quaternion(rotation))
-        _inertia(read, body, links[child], moving=_joint(read, body, joint))
-        stack += [(body, item) for item in reversed(below[child])]
+        _inertia(read, body, links.named[child], moving=_joint(read, body, joint))
+        stack += [(body, item) for item in reversed(links.below[child])]
     return read
-
-
-def _end(joint: Element, end: str, links: dict[str, Element]) -> str:
-    """Return the link that a joint names as its parent or child."""
-    element = joint.find(end)
-    name = "" if element is None else str(element.get("link"))
-    if name not in links:
-        raise RobotError(
-            f"the joint '{joint.get('name')}' names the {end} link '{name}', which the URDF lacks"
-        )
-    return name
 
 
 def _joint(read: Urdf, body: mujoco.MjsBody, element: Element) -> bool:
@@ -137,13 +112,14 @@ def _joint(read: Urdf, body: mujoco.MjsBody, element: Element) -> bool:
         raise RobotError(
             f"the joint '{name}' has the lower limit {low:g} above the upper limit {high:g}"
         )
-    if kind != "continuous" and low < high:
+    if kind != "continuous" and low != high:
         joint.limited, joint.range = True, (low, high)
     effort = number(limit, "effort")
-    if 0.0 < effort < np.inf:
+    if not effort <= 0.0 and effort != np.inf:  # NaN goes on, to be told of
         joint.actfrclimited, joint.actfrcrange = True, (-effort, effort)
-    if number(limit, "velocity") > 0.0:
-        read.speed[name] = number(limit, "velocity")
+    speed = number(limit, "velocity")
+    if not speed <= 0.0:
+        read.speed[name] = speed
     joint.damping = (number(dynamics, "damping"), 0.0, 0.0)
     joint.frictionloss = number(dynamics, "friction")
     mimic = element.find("mimic")
@@ -195,7 +171,11 @@ def origin(element: Element) -> tuple[Array, Array]:
     """Return position (3,) and rotation (3, 3) of an element's <origin>."""
     at = element.find("origin")
     zero = (0.0, 0.0, 0.0)
-    return vector(at, "xyz", zero), pin.rpy.rpyToMatrix(vector(at, "rpy", zero))
+    rpy = vector(at, "rpy", zero)
+    if not (np.abs(rpy) <= LARGEST).all():
+        text = ", ".join(f"{angle:g}" for angle in rpy)
+        raise RobotError(f"the URDF holds the angles ({text}) rad; expected up to {LARGEST:g}")
+    return vector(at, "xyz", zero), pin.rpy.rpyToMatrix(rpy)
 
 
 def quaternion(rotation: Array) -> Array:
