@@ -6,7 +6,7 @@ To change a walk, make another plan (`FootstepPlan.replace_after`). All look-ups
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import overload
 
@@ -136,6 +136,9 @@ class FootstepPlan(Sequence[Footstep]):
     def __getitem__(self, index: int | slice) -> Footstep | tuple[Footstep, ...]:
         return self._items[index]
 
+    def __iter__(self) -> Iterator[Footstep]:
+        return iter(self._items)
+
     def __repr__(self) -> str:
         return f"FootstepPlan({len(self.steps)} steps, {self.start:.3f} s to {self.end:.3f} s)"
 
@@ -168,7 +171,9 @@ class FootstepPlan(Sequence[Footstep]):
 
     def swing_at(self, t: float) -> Footstep | None:
         """Return the step in the air at time t (s), lift <= t < land, or None."""
-        index = _until(self._lifts, t) - 1
+        if type(t) is not float or t != t:
+            t = time_of(t)
+        index = bisect_right(self._lifts, t) - 1
         return self._steps[index] if index >= 0 and t < self._lands[index] else None
 
     def sole(self, foot: Foot, t: float) -> Array:
@@ -177,7 +182,9 @@ class FootstepPlan(Sequence[Footstep]):
             lands, own = self._by_foot[foot]
         except (KeyError, TypeError):
             lands, own = self._by_foot[foot_of(foot, "foot")]
-        return own[max(0, _until(lands, t) - 1)].pose
+        if type(t) is not float or t != t:
+            t = time_of(t)
+        return own[max(0, bisect_right(lands, t) - 1)].pose
 
     def start_pose(self, step: Footstep) -> Array:
         """Return the (4, 4) sole pose from which `step` lifts."""

@@ -101,7 +101,7 @@ def support_margin(polygon: Array, points: ArrayLike) -> Array:
     """
     p = np.asarray(points, dtype=np.float64)[..., None, :]
     start = polygon
-    edge = np.roll(polygon, -1, axis=0) - start
+    edge = np.concatenate((polygon[1:], polygon[:1])) - start
     length = np.hypot(edge[:, 0], edge[:, 1])
     offset = p - start
     left = (edge[:, 0] * offset[..., 1] - edge[:, 1] * offset[..., 0]) / length
@@ -128,11 +128,14 @@ def sole_gap(a: Heading, b: Heading, sole: Sole) -> float:
     # Extent of the other rectangle along this one's axes, the same for both by symmetry.
     along = sole.half_length + sole.half_length * ct + sole.half_width * st
     across = sole.half_width + sole.half_length * st + sole.half_width * ct
-    gap = -along
-    for yaw in (a[2], b[2]):
-        c, s = cos(yaw), sin(yaw)
-        gap = max(gap, abs(c * dx + s * dy) - along, abs(c * dy - s * dx) - across)
-    return gap
+    c, s = cos(a[2]), sin(a[2])
+    u, v = cos(b[2]), sin(b[2])
+    return max(
+        abs(c * dx + s * dy) - along,
+        abs(c * dy - s * dx) - across,
+        abs(u * dx + v * dy) - along,
+        abs(u * dy - v * dx) - across,
+    )
 
 
 def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:

@@ -95,9 +95,9 @@ class Swing:
         """
         if type(t) is not float or t != t:
             t = time_of(t)
-        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
+        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = [
             q.at(t) for q in self.plane
-        )
+        ]
         z, vz, az = self._height(t).at(t)
         pose = pose_at(x, y, w, z, p, r)
         cw, sw, cp, sp = cos(w), sin(w), cos(p), sin(p)
