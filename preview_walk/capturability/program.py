@@ -39,12 +39,17 @@ from preview_walk.geometry.support import Sole
 from preview_walk.types import Array
 
 _SIDES = 32
+"""A disc is a polygon of this many sides inside it."""
+
 _ANGLES = 2.0 * pi / _SIDES * np.arange(_SIDES)
 _AROUND = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
 _AXES = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-# The last foothold carries at least this share, so that it is a definite place.
+
 _LEAST_SHARE = 1e-4
+"""The last foothold carries at least this share, so that it is a definite place."""
+
 _TOLERANCE = 1e-6
+"""A way may be longer than the swing's limit by this much (m): rounding."""
 
 
 @dataclass(frozen=True, eq=False)

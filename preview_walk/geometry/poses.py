@@ -188,7 +188,7 @@ def _no_frame(frame: object, other: object) -> InvalidInput:
 def _is_rigid(pose: Array) -> bool:
     """Return whether the rotation is one to 1e-6 and the origin within 1e9 m."""
     (a, b, c, x), (d, e, f, y), (g, h, i, z), last = pose.tolist()
-    return (
+    return bool(
         abs(a * a + d * d + g * g - 1.0) < 1e-6
         and abs(b * b + e * e + h * h - 1.0) < 1e-6
         and abs(a * b + d * e + g * h) < 1e-6
