@@ -54,8 +54,11 @@ G1 = PushGait(
     swing_speed=2.5,
 )
 GAITS = {"TALOS": TALOS, "G1": G1}
+"""The robots as the reference has them, with the limits of a step that it states."""
 
 Cell = tuple[float, float, float]
+"""The bound (N·s) of each answer."""
+
 REFERENCE: dict[str, dict[float | None, tuple[Cell, ...]]] = {
     "TALOS": {
         0.1: ((46.6, 67.7, 131.9), (46.0, 72.5, 128.6), (29.0, 33.0, 35.5), (29.5, 48.7, 111.0)),
@@ -115,7 +118,10 @@ def described(gait: PushGait) -> str:
 
 
 def row(gait: PushGait, share: float | None) -> list[tuple[float, ...]]:
-    """Return the bound (N·s) of every answer, for every direction that a row of the table has."""
+    """Return the bound (N·s) of every answer, for every direction that a row of the table has.
+
+    Standing, outward and inward are the same.
+    """
     directions = get_args(Direction)[: 3 if share is None else 4]
     return [
         tuple(largest_impulse(gait, share, direction, answer) for answer in get_args(Answer))

@@ -14,9 +14,10 @@ instant impulse J would, by J / (m omega), if
 
 Survived means: the DCM comes to rest inside the support within six steps. `program` finds the
 largest jump of the DCM for given times of the steps, `timing` searches the times. Double support
-lasts as in the walk, or, where times are free, as `PushGait.short_double_support` says. Before the push the gait is periodic: the CoP rests in
-the middle of the sole in single support and moves at constant speed from sole to sole in double
-support, and the swing foot's way through the air follows 3 s^2 - 2 s^3.
+lasts as in the walk, or, where times are free, as `PushGait.short_double_support` says. Before the
+push the gait is periodic: the CoP rests in the middle of the sole in single support and moves at
+constant speed from sole to sole in double support, and the swing foot's way through the air
+follows 3 s^2 - 2 s^3.
 
 Frame of every vector: x forward, y towards the stance foot's side (the axes of the heading while
 the left foot stands, their mirror image while the right foot does), origin at the stance sole's
@@ -56,6 +57,7 @@ _ANSWERS = {
 """The searches by answer; each answer may use those before it too."""
 
 _ANGLES = {"forward": 0.0, "outward": 0.5 * pi, "back": pi, "inward": -0.5 * pi}
+"""Angles (rad) of the directions that have a name."""
 
 
 @dataclass(frozen=True, eq=False)

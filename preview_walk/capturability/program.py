@@ -42,8 +42,13 @@ _SIDES = 32
 """A disc is a polygon of this many sides inside it."""
 
 _ANGLES = 2.0 * pi / _SIDES * np.arange(_SIDES)
+"""Directions (rad) of the normals of these sides."""
+
 _AROUND = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
+"""The normals, (M, 2)."""
+
 _AXES = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+"""Normals of a rectangle along the axes."""
 
 _LEAST_SHARE = 1e-4
 """The last foothold carries at least this share, so that it is a definite place."""
@@ -66,7 +71,12 @@ class Polygon:
 
     @classmethod
     def box(cls, x: tuple[float, float], y: tuple[float, float]) -> Polygon:
-        """Return a rectangle along the axes, from the ends of its ranges in any order."""
+        """Return a rectangle along the axes.
+
+        Args:
+            x: both ends of its range, in any order, m.
+            y: the same for y.
+        """
         return cls(_AXES, np.array([max(x), -min(x), max(y), -min(y)]))
 
     @classmethod
@@ -76,7 +86,12 @@ class Polygon:
 
     @classmethod
     def disc(cls, centre: Array, radius: float) -> Polygon:
-        """Return the regular polygon of 32 sides inscribed in a disc."""
+        """Return the regular polygon of 32 sides inscribed in a disc.
+
+        Args:
+            centre: (2,), m.
+            radius: m.
+        """
         return cls(_AROUND, _AROUND @ centre + radius * cos(pi / _SIDES))
 
     def __and__(self, second: Polygon) -> Polygon:

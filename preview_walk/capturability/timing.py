@@ -139,6 +139,7 @@ class PushCase:
         times = np.array([start.singles[0], later, later])
 
         def with_steps(times: Array, count: int, refine: bool) -> TimedCapture | None:
+            """Return the best answer by so many steps at these times."""
             singles = [*times.tolist(), *[float(times[2])] * (MOST_STEPS - 3)]
             return self.in_free_times(start.delay, singles[:count], refine)
 

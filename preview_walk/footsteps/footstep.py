@@ -12,6 +12,7 @@ from preview_walk.geometry.poses import as_pose, yaw_of
 from preview_walk.types import Array, Foot
 
 _LAB_KEYS = ("foot", "pos", "time", "type")
+"""Keys of the walking lab's dictionary of a footstep."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,5 +94,10 @@ class Footstep:
         return getattr(self, key)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """Return one of the walking lab's keys, or `default` for another one."""
+        """Return one of the walking lab's keys, or `default` for another one.
+
+        Args:
+            key: foot, pos, time or type.
+            default: returned for any other key.
+        """
         return getattr(self, key) if key in self else default

@@ -139,9 +139,12 @@ def sole_gap(a: Heading, b: Heading, sole: Sole) -> float:
 
 
 def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:
-    """Return the point (2,) of the support polygon of standing soles nearest to `point` (2,).
+    """Return the point (2,) of the support polygon of standing soles nearest to a point.
 
-    `poses`: (4, 4) of the soles, at least one; `sole`: their half sizes.
+    Args:
+        point: (2,), m.
+        poses: sole poses (4, 4) of the standing feet, at least one.
+        sole: half sizes of the soles.
     """
     x, y = point.tolist()
     for pose in poses:  # nearly always over a sole: no need of the hull
@@ -154,7 +157,12 @@ def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:
 
 
 def nearest_inside(polygon: Array, point: Array) -> Array:
-    """Return the point (2,) of a convex polygon (M, 2), counter-clockwise, nearest to `point`."""
+    """Return the point (2,) of a convex polygon nearest to a point; the point itself inside.
+
+    Args:
+        polygon: vertices (M, 2), counter-clockwise.
+        point: (2,), m.
+    """
     x, y = point.tolist()
     corners = polygon.tolist()
     best, nearest, outside = float("inf"), (x, y), False
