@@ -1,6 +1,7 @@
 """Readers of the arguments of public calls: each returns the plain value or says what came.
 
-All raise `InvalidInput` with one sentence and the argument's name. What passes is a finite number
+Each takes the value that came, the name of the argument and, for a number, its unit or meaning, and
+raises `InvalidInput` with one sentence and that name. What passes is a finite number
 of a size that arithmetic can bear, so nothing behind them overflows or divides by zero.
 """
 
@@ -27,6 +28,7 @@ MOST_SAMPLES = 10_000_000
 """Sampled references have at most this many rows: beyond it the memory of a laptop ends."""
 
 _Kind = TypeVar("_Kind")
+"""A class that an argument must be of."""
 
 
 def finite_number(value: object, name: str, unit: str) -> float:

@@ -1,4 +1,4 @@
-"""The largest push a walking pendulum can survive: the bound that pushes are measured against.
+"""The largest push that a pendulum with stated reach, width, timing and swing speed survives.
 
 Imports `geometry` and `preview`; benchmarks use it, the walker does not. Start with `bound`.
 """

@@ -1,8 +1,10 @@
 """The largest push a walking biped can survive, under the linear inverted pendulum.
 
-A yardstick for push recovery: what the pendulum allows, whatever the controller. It is optimistic
-(no delay, no friction, joint or torque limit, feet that land where they are wanted), and it leaves
-out angular momentum, with which a body can go past it.
+A yardstick for push recovery: what a pendulum with the stated reach, width, timing and swing speed
+(`PushGait`) allows. It is no bound on controllers: one whose own limits are wider can pass it, and
+so can a body that uses its angular momentum, which is left out. Given a controller's own limits it
+is that controller's bound. Within its limits it is optimistic: no delay, no friction, joint or
+torque limit, feet that land where they are wanted.
 
 The push is a constant force for D = 0.2 s, begun at a share of single support or while standing,
 and the CoP is free to react from its first instant on. Seen from there it moves the DCM as an
@@ -10,11 +12,12 @@ instant impulse J would, by J / (m omega), if
 
     F D = J * omega D / (1 - exp(-omega D)).
 
-Survived means: the DCM comes to rest inside the support within six steps. `capture_program` finds
-the largest jump of the DCM for given times of the steps, `push_timing` searches the times. The
-duration of double support is never changed. Before the push the gait is periodic: the CoP rests in
-the middle of the sole in single support and moves at constant speed from sole to sole in double
-support, and the swing foot's way through the air follows 3 s^2 - 2 s^3.
+Survived means: the DCM comes to rest inside the support within six steps. `program` finds the
+largest jump of the DCM for given times of the steps, `timing` searches the times. Double support
+lasts as in the walk, or, where times are free, as `PushGait.short_double_support` says. Before the
+push the gait is periodic: the CoP rests in the middle of the sole in single support and moves at
+constant speed from sole to sole in double support, and the swing foot's way through the air
+follows 3 s^2 - 2 s^3.
 
 Frame of every vector: x forward, y towards the stance foot's side (the axes of the heading while
 the left foot stands, their mirror image while the right foot does), origin at the stance sole's
@@ -24,11 +27,12 @@ centre, or midway between the soles of one who stands. Angles run from x to y.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, exp, inf, isfinite, pi, sin
+from math import cos, exp, pi, sin
 from typing import Literal
 
 import numpy as np
 
+from preview_walk.arguments import finite_number, instance_of, number_from_zero, shown
 from preview_walk.capturability.gait import PushGait
 from preview_walk.capturability.timing import PushCase, TimedCapture, best_of
 from preview_walk.errors import InvalidInput
@@ -45,13 +49,15 @@ Direction = Literal["forward", "back", "outward", "inward"]
 PUSH_DURATION = 0.2
 """How long the force acts (s)."""
 
-# Each answer may use those before it too.
 _ANSWERS = {
     "cop": PushCase.by_cop,
     "steps": PushCase.by_steps,
     "steps_and_timing": PushCase.by_steps_and_timing,
 }
+"""The searches by answer; each answer may use those before it too."""
+
 _ANGLES = {"forward": 0.0, "outward": 0.5 * pi, "back": pi, "inward": -0.5 * pi}
+"""Angles (rad) of the directions that have a name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,13 +107,17 @@ def largest_impulse(
 def survival_plan(
     gait: PushGait, share: float | None, direction: Direction | float, answer: Answer
 ) -> SurvivalPlan:
-    """Return how the pendulum survives the largest push; see `largest_impulse`."""
-    if share is not None and not (isfinite(share) and 0.0 <= share <= 1.0):
+    """Return how the pendulum survives the largest push.
+
+    Arguments and errors as of `largest_impulse`.
+    """
+    instance_of(gait, PushGait, "gait")
+    _check_share(share)
+    if not (isinstance(answer, str) and answer in _ANSWERS):
+        known = ", ".join(_ANSWERS)
         raise InvalidInput(
-            f"share must be between 0 and 1 of single support, or None for standing, got {share}."
+            f"answer must be one of {known}, got {shown(answer)}.", argument="answer"
         )
-    if answer not in _ANSWERS:
-        raise InvalidInput(f"answer must be one of {', '.join(_ANSWERS)}, got {answer!r}.")
     angle = _angle(direction)
     ways = list(_ANSWERS.values())[: list(_ANSWERS).index(answer) + 1]
     plans = []
@@ -118,19 +128,38 @@ def survival_plan(
         if best is not None:
             plans.append(_plan(case, best, mirror))
     if not plans:
-        raise InvalidInput(f"this gait cannot be kept up even without a push: {gait}.")
+        raise InvalidInput(
+            f"this gait cannot be kept up even without a push: {gait}.", argument="gait"
+        )
     return max(plans, key=lambda plan: plan.impulse)
+
+
+def _check_share(share: float | None) -> None:
+    """Refuse what is no share of single support."""
+    try:
+        good = share is None or number_from_zero(share, "share", "") <= 1.0
+    except InvalidInput:
+        good = False
+    if not good:
+        raise InvalidInput(
+            "share must be between 0 and 1 of single support, or None for standing, "
+            f"got {shown(share)}.",
+            argument="share",
+        )
 
 
 def _angle(direction: Direction | float) -> float:
     """Return the angle of a direction (rad)."""
-    angle = _ANGLES.get(direction, inf) if isinstance(direction, str) else float(direction)
-    if not isfinite(angle):
+    if isinstance(direction, str) and direction in _ANGLES:
+        return _ANGLES[direction]
+    try:
+        return finite_number(direction, "direction", "rad")
+    except InvalidInput:
         raise InvalidInput(
             f"direction must be one of {', '.join(_ANGLES)} or a finite angle in rad, "
-            f"got {direction!r}."
-        )
-    return angle
+            f"got {shown(direction)}.",
+            argument="direction",
+        ) from None
 
 
 def _plan(case: PushCase, best: TimedCapture, mirror: float) -> SurvivalPlan:
@@ -138,12 +167,12 @@ def _plan(case: PushCase, best: TimedCapture, mirror: float) -> SurvivalPlan:
     gait, share, capture = case.gait, case.share, best.capture
     count, swings = len(best.singles), np.array(best.singles)
     first_lift = best.delay if count else 0.0
-    lands = first_lift + np.cumsum(swings) + gait.double_support * np.arange(count)
+    lands = first_lift + np.cumsum(swings) + best.pause * np.arange(count)
     strides = capture.strides[len(capture.strides) - count :]
     soles = np.vstack([gait.swing_foot(share), np.zeros(2), np.cumsum(strides, axis=0)])
     # Where the CoP of each double support is between the soles: 0 at the one behind, 1 at the
     # other. The last one is endless; where there is no double support there is no choice.
-    least = np.full(count, exp(-gait.omega * gait.double_support))
+    least = np.full(count, exp(-gait.omega * best.pause))
     least[-1:] = 0.0
     shares = capture.shares[len(capture.shares) - count :]
     along = np.divide(shares - least, 1.0 - least, out=np.ones(count), where=least < 1.0)

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from math import exp, expm1, inf, isfinite
+from math import exp, expm1, inf
 
 import numpy as np
 
+from preview_walk.arguments import finite_number, instance_of, number_from_zero, positive_number
 from preview_walk.capturability.program import CaptureStep, Polygon
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.support import Sole
 from preview_walk.preview.cart_table import natural_frequency
 from preview_walk.types import Array
+
+_CHECKED_APART = ("sole", "step_length", "double_support", "short_double_support")
+"""Fields that need not be positive."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +30,7 @@ class PushGait:
         step_width: lateral distance of the sole centres, m.
         step_length: how far each foot lands ahead of the other, m; negative walks backwards.
         single_support: duration of single support, s.
-        double_support: duration of double support, s; not changed by an answer to a push.
+        double_support: duration of double support, s.
         forward: a foot lands at most this far ahead of the standing one, m.
         backward: and at most this far behind it, m.
         min_width: least lateral distance of the sole centres (no crossing of the legs), m.
@@ -34,6 +38,8 @@ class PushGait:
         min_swing_time: shortest single support, s.
         max_swing_time: longest single support, s.
         swing_speed: largest mean speed of the swing foot over the rest of its way, m/s.
+        short_double_support: duration of double support in an answer whose times are free, s; None
+            keeps that of the walk.
 
     Raises:
         InvalidInput: a number that is not finite or out of range, or a gait beyond its limits.
@@ -53,19 +59,19 @@ class PushGait:
     min_swing_time: float
     max_swing_time: float
     swing_speed: float
+    short_double_support: float | None = None
 
     def __post_init__(self) -> None:
         """Check the numbers."""
+        instance_of(self.sole, Sole, "sole")
         for item in fields(self):
-            value = getattr(self, item.name)
-            if item.name in ("sole", "step_length", "double_support"):
-                continue
-            if not (isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{item.name} must be finite and > 0, got {value}.")
-        if not (isfinite(self.double_support) and self.double_support >= 0.0):
-            raise InvalidInput(
-                f"double_support must be finite and >= 0 s, got {self.double_support}."
-            )
+            if item.name not in _CHECKED_APART:
+                value = positive_number(getattr(self, item.name), item.name, _unit(item.name))
+                object.__setattr__(self, item.name, value)
+        finite_number(self.step_length, "step_length", "m")
+        number_from_zero(self.double_support, "double_support", "s")
+        if self.short_double_support is not None:
+            number_from_zero(self.short_double_support, "short_double_support", "s")
         for name, low, high in (
             ("step_length", -self.backward, self.forward),
             ("step_width", self.min_width, self.max_width),
@@ -74,7 +80,8 @@ class PushGait:
             value = getattr(self, name)
             if not low <= value <= high:
                 raise InvalidInput(
-                    f"{name} must be between {low} and {high}, the limits of a step, got {value}."
+                    f"{name} must be between {low} and {high}, the limits of a step, got {value}.",
+                    argument=name,
                 )
 
     @property
@@ -142,6 +149,7 @@ class PushGait:
         delay: float,
         singles: Sequence[float],
         kept: bool = False,
+        pause: float | None = None,
     ) -> list[CaptureStep]:
         """Return what the strides after the push may be, if they keep to these times.
 
@@ -154,7 +162,9 @@ class PushGait:
                 Not used in single support.
             singles: (n,) how long each foot stays in the air from then or from the push on, s.
             kept: whether the footholds stay those of the plan.
+            pause: duration of the double supports, s; None: as in the walk.
         """
+        pause = self.double_support if pause is None else pause
         strides, time = [], 0.0
         place = self.swing_foot(share)
         if share is None:
@@ -177,10 +187,17 @@ class PushGait:
             strides.append(
                 CaptureStep(
                     most=exp(-self.omega * time),
-                    least=0.0 if last else exp(-self.omega * self.double_support),
+                    least=0.0 if last else exp(-self.omega * pause),
                     reach=reach,
                     travel=inf if kept or index == 0 else self.swing_speed * single,
                 )
             )
-            time += self.double_support
+            time += pause
         return strides
+
+
+def _unit(name: str) -> str:
+    """Return the unit of a field."""
+    if name.endswith(("_support", "_time")):
+        return "s"
+    return {"mass": "kg", "swing_speed": "m/s"}.get(name, "m")

@@ -39,12 +39,22 @@ from preview_walk.geometry.support import Sole
 from preview_walk.types import Array
 
 _SIDES = 32
+"""A disc is a polygon of this many sides inside it."""
+
 _ANGLES = 2.0 * pi / _SIDES * np.arange(_SIDES)
+"""Directions (rad) of the normals of these sides."""
+
 _AROUND = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
+"""The normals, (M, 2)."""
+
 _AXES = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-# The last foothold carries at least this share, so that it is a definite place.
+"""Normals of a rectangle along the axes."""
+
 _LEAST_SHARE = 1e-4
+"""The last foothold carries at least this share, so that it is a definite place."""
+
 _TOLERANCE = 1e-6
+"""A way may be longer than the swing's limit by this much (m): rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +71,12 @@ class Polygon:
 
     @classmethod
     def box(cls, x: tuple[float, float], y: tuple[float, float]) -> Polygon:
-        """Return a rectangle along the axes, from the ends of its ranges in any order."""
+        """Return a rectangle along the axes.
+
+        Args:
+            x: both ends of its range, in any order, m.
+            y: the same for y.
+        """
         return cls(_AXES, np.array([max(x), -min(x), max(y), -min(y)]))
 
     @classmethod
@@ -71,7 +86,12 @@ class Polygon:
 
     @classmethod
     def disc(cls, centre: Array, radius: float) -> Polygon:
-        """Return the regular polygon of 32 sides inscribed in a disc."""
+        """Return the regular polygon of 32 sides inscribed in a disc.
+
+        Args:
+            centre: (2,), m.
+            radius: m.
+        """
         return cls(_AROUND, _AROUND @ centre + radius * cos(pi / _SIDES))
 
     def __and__(self, second: Polygon) -> Polygon:

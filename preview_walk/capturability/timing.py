@@ -1,6 +1,6 @@
 """The times of the steps that answer a push: given, or searched for the largest push.
 
-For given times the largest push is one programme (`capture_program`); in the times the problem
+For given times the largest push is one programme (`program`); in the times the problem
 is smooth in pieces only, so they are searched without derivatives.
 """
 
@@ -13,20 +13,22 @@ from math import hypot, inf
 import numpy as np
 
 from preview_walk.capturability.gait import PushGait
-from preview_walk.capturability.program import Capture, largest_jump
+from preview_walk.capturability.program import Capture, CaptureStep, largest_jump
 from preview_walk.types import Array
 
 MOST_STEPS = 6
 """Steps within which the DCM must come to rest."""
 
-# Who stands may shift the weight before the first foot lifts. This delay (s) is searched on the
-# grid that the reference figures agree with. It matters to narrow soles in a wide stance, which
-# must shift before they lift: there a delay tuned to the millisecond adds about 3 %.
 _DELAYS = tuple(0.05 * i for i in range(7))
-# Swing times are found to this (s): the best are often at a kink, where 1 ms is worth 0.3 %.
+"""Times (s) in which who stands shifts the weight before the first foot lifts: the grid that the
+reference figures agree with. They matter to narrow soles in a wide stance, which must shift before
+they lift: there a delay tuned to the millisecond adds about 3 %."""
+
 _FINEST = 3e-5
-# The disc that limits a swing is a polygon inside it, so the whole way takes a little longer.
+"""Swing times are found to this (s): the best are often at a kink, where 1 ms is worth 0.3 %."""
+
 _DETOUR = 1.01
+"""The disc that limits a swing is a polygon inside it, so the whole way takes a little longer."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +39,13 @@ class TimedCapture:
         capture: the largest jump of the DCM and the strides.
         delay: from the push until the first foot lifts (s); infinite for one who only stands.
         singles: (n,) how long each foot is in the air from then or from the push on (s).
+        pause: how long both feet stand between two steps (s).
     """
 
     capture: Capture
     delay: float
     singles: tuple[float, ...]
+    pause: float
 
 
 def best_of(found: Iterable[TimedCapture | None]) -> TimedCapture | None:
@@ -67,18 +71,45 @@ class PushCase:
     share: float | None
     direction: Array
 
-    def at(
-        self, delay: float, singles: Sequence[float], kept: bool = False, refine: bool = True
+    def at(self, delay: float, singles: Sequence[float], kept: bool = False) -> TimedCapture | None:
+        """Return the largest capture with strides at these times, or None if there is none.
+
+        Args:
+            delay: from the push until the first foot lifts (s).
+            singles: (n,) how long each foot is in the air (s).
+            kept: whether the footholds stay those of the plan.
+        """
+        strides = self.gait.strides(self.share, delay, singles, kept)
+        return self._largest(delay, singles, strides, self.gait.double_support)
+
+    def in_free_times(
+        self, delay: float, singles: Sequence[float], refine: bool = True
     ) -> TimedCapture | None:
-        """Return the largest capture with strides at these times, or None if there is none."""
-        capture = largest_jump(
-            self.gait.dcm(self.share),
-            self.direction,
-            self.gait.sole,
-            self.gait.strides(self.share, delay, singles, kept),
-            refine,
-        )
-        return None if capture is None else TimedCapture(capture, delay, tuple(singles))
+        """Return the same with the double supports of an answer whose times are free.
+
+        Args:
+            delay: from the push until the first foot lifts (s).
+            singles: (n,) how long each foot is in the air (s).
+            refine: as of `largest_jump`.
+        """
+        gait = self.gait
+        pause = gait.short_double_support
+        pause = gait.double_support if pause is None else pause
+        strides = gait.strides(self.share, delay, singles, pause=pause)
+        return self._largest(delay, singles, strides, pause, refine)
+
+    def _largest(
+        self,
+        delay: float,
+        singles: Sequence[float],
+        strides: Sequence[CaptureStep],
+        pause: float,
+        refine: bool = True,
+    ) -> TimedCapture | None:
+        """Return the largest capture with these strides, or None if there is none."""
+        gait = self.gait
+        capture = largest_jump(gait.dcm(self.share), self.direction, gait.sole, strides, refine)
+        return None if capture is None else TimedCapture(capture, delay, tuple(singles), pause)
 
     def by_cop(self) -> TimedCapture | None:
         """Return the best answer that keeps the plan; standing, that stands still."""
@@ -108,8 +139,9 @@ class PushCase:
         times = np.array([start.singles[0], later, later])
 
         def with_steps(times: Array, count: int, refine: bool) -> TimedCapture | None:
+            """Return the best answer by so many steps at these times."""
             singles = [*times.tolist(), *[float(times[2])] * (MOST_STEPS - 3)]
-            return self.at(start.delay, singles[:count], refine=refine)
+            return self.in_free_times(start.delay, singles[:count], refine)
 
         best, step = with_steps(times, MOST_STEPS, False), 0.02
         axes = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]])
@@ -142,7 +174,7 @@ class PushCase:
         for delay in delays:
             for first in firsts:
                 for tail in tails:
-                    yield self.at(delay, (first, *tail), refine=False)
+                    yield self.in_free_times(delay, (first, *tail), refine=False)
 
     def _nominal(self) -> tuple[float, ...]:
         """Return the six swing times of the plan (s); the first is what is left of it."""

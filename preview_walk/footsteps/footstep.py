@@ -12,6 +12,7 @@ from preview_walk.geometry.poses import as_pose, yaw_of
 from preview_walk.types import Array, Foot
 
 _LAB_KEYS = ("foot", "pos", "time", "type")
+"""Keys of the walking lab's dictionary of a footstep."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +58,9 @@ class Footstep:
                 f"a {self.type} footstep needs times with {allowed}, got {lift} s, {land} s.",
                 argument="land",
             )
-        object.__setattr__(self, "lift", lift)
-        object.__setattr__(self, "land", land)
+        for name, time in (("lift", lift), ("land", land)):
+            if time is not getattr(self, name):
+                object.__setattr__(self, name, time)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Take a copied state; NumPy's copies forget that they are read-only."""
@@ -97,5 +99,10 @@ class Footstep:
         return getattr(self, key)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """Return one of the walking lab's keys, or `default` for another one."""
+        """Return one of the walking lab's keys, or `default` for another one.
+
+        Args:
+            key: foot, pos, time or type.
+            default: returned for any other key.
+        """
         return getattr(self, key) if key in self else default

@@ -48,6 +48,9 @@ def straight(
         start_foot: the foot that swings first.
         limits: bounds of a step; None takes those of a 0.8 m leg.
         ramp: number of shorter steps in which the walk speeds up and slows down.
+
+    Raises:
+        InvalidInput: an argument is not what is described here, or the limits do not allow it.
     """
     bounds, distance = limits_for(planner, limits), finite_number(distance, "distance", "m")
     reach = bounds.forward if distance > 0.0 else bounds.backward
@@ -72,6 +75,15 @@ def sideways(
     """Return a walk over `distance` (m) to the left; negative goes to the right.
 
     The foot on that side opens, the other closes, so the soles are never nearer than in stance.
+
+    Args:
+        distance: from stance to stance, m.
+        planner: sizes and times.
+        start: where to start, or a plan to go on from.
+        limits: bounds of a step; None takes those of a 0.8 m leg.
+
+    Raises:
+        InvalidInput: an argument is not what is described here, or the limits do not allow it.
     """
     bounds, distance = limits_for(planner, limits), finite_number(distance, "distance", "m")
     reach = min(abs(planner.step_length), bounds.max_width - planner.step_width)
@@ -90,7 +102,18 @@ def on_the_spot(
     start_foot: Foot = "left",
     limits: GaitLimits | None = None,
 ) -> FootstepPlan:
-    """Return `n_steps` steps that land where they lifted."""
+    """Return `n_steps` steps that land where they lifted.
+
+    Args:
+        n_steps: number of steps, >= 0.
+        planner: sizes and times.
+        start: where to start, or a plan to go on from.
+        start_foot: the foot that swings first.
+        limits: bounds of a step; None takes those of a 0.8 m leg.
+
+    Raises:
+        InvalidInput: an argument is not what is described here, or the limits do not allow it.
+    """
     bounds, count = limits_for(planner, limits), count_of(n_steps, "n_steps")
     return planner.walk([Stride()] * count, start, start_foot, bounds)
 
@@ -105,6 +128,15 @@ def turn_in_place(
 
     The foot on the side of the turn opens, the other closes.  Where the soles would collide the
     feet stand wider while they turn, and two more steps bring them back.
+
+    Args:
+        angle: from stance to stance, rad.
+        planner: sizes and times.
+        start: where to start, or a plan to go on from.
+        limits: bounds of a step; None takes those of a 0.8 m leg.
+
+    Raises:
+        InvalidInput: an argument is not what is described here, or the limits do not allow it.
     """
     bounds, angle = limits_for(planner, limits), finite_number(angle, "angle", "rad")
     first: Foot = "left" if angle > 0.0 else "right"
@@ -140,6 +172,9 @@ def arc(
         start_foot: the foot that swings first; None takes the one on the inside.
         limits: bounds of a step; None takes those of a 0.8 m leg.
         ramp: number of shorter steps in which the walk speeds up and slows down.
+
+    Raises:
+        InvalidInput: an argument is not what is described here, or the limits do not allow it.
     """
     bounds, angle = limits_for(planner, limits), finite_number(angle, "angle", "rad")
     radius = positive_number(radius, "radius", "m")
@@ -160,6 +195,10 @@ def arc(
 
 def limits_for(planner: FootstepPlanner, limits: GaitLimits | None) -> GaitLimits:
     """Return the given limits, or those of a 0.8 m leg with the planner's step width.
+
+    Args:
+        planner: whose step width counts.
+        limits: bounds of a step, or None.
 
     Raises:
         InvalidInput: the planner or the limits are something else.
@@ -185,6 +224,7 @@ def _count(total: float, size: float, name: str) -> int:
 
 
 def _too_long() -> InvalidInput:
+    """Return the refusal of a walk with too few steps."""
     return InvalidInput(
         "a stride is longer than the planner's step_length.", argument="step_length"
     )
@@ -204,4 +244,5 @@ def _fewest(
                 return build(n, width)
             except InvalidInput as error:
                 refusal = refusal or error
-    raise refusal or InvalidInput("no walk was built.")
+    assert refusal is not None, "at least one width was tried"
+    raise refusal

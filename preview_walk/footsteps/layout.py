@@ -64,7 +64,14 @@ class Layout:
         raise InvalidInput(f"step {self.number} {problem}.", argument=problem.argument)
 
     def add(self, foot: Foot, pose: Array, swing: float, pause: float) -> None:
-        """Append a step of `swing` seconds in the air and `pause` seconds on both feet after."""
+        """Append a step.
+
+        Args:
+            foot: the swinging foot.
+            pose: where it lands, (4, 4).
+            swing: time in the air, s.
+            pause: time on both feet after it, s.
+        """
         land = self._lift + swing
         self.steps.append(Footstep(foot, pose, self._lift, land))
         self.soles[foot] = pose

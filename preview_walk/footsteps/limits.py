@@ -148,7 +148,12 @@ class GaitLimits:
         )
 
     def centre(self, foot: Foot, sole: Heading) -> Heading:
-        """Return the middle of a stance of nominal width with one sole here."""
+        """Return the middle of a stance of nominal width.
+
+        Args:
+            foot: the foot whose sole is known.
+            sole: heading of that sole.
+        """
         half = 0.5 * self.step_width
         return compose(sole, 0.0, -half if foot == "left" else half)
 

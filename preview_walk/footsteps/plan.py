@@ -6,13 +6,14 @@ To change a walk, make another plan (`FootstepPlan.replace_after`). All look-ups
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import overload
 
 from preview_walk.arguments import finite_number, foot_of, items_of, positive_number, time_of
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
+from preview_walk.footsteps.order import check_order, is_stand
 from preview_walk.geometry.poses import as_pose
 from preview_walk.types import (
     DOUBLE_SUPPORT,
@@ -21,7 +22,6 @@ from preview_walk.types import (
     RIGHT_SUPPORT,
     Array,
     Foot,
-    other,
 )
 
 WEIGHT_SHIFT_TIME = 0.4
@@ -96,35 +96,13 @@ class FootstepPlan(Sequence[Footstep]):
         self._steps = self._items[2:]
         self._weight_shift = weight_shift
         for index in range(max(2, len(kept)), len(self._items)):
-            self._check(index)
+            check_order(self._items[index - 1], self._items[index], index - 1, weight_shift)
         self._lifts = [s.lift for s in self._steps]
         self._lands = [s.land for s in self._steps]
         self._by_foot: dict[str, tuple[list[float], list[Footstep]]] = {}
         for foot in FEET:
             own = [s for s in self._items if s.foot == foot]
             self._by_foot[foot] = ([s.land for s in own], own)
-
-    def _check(self, index: int) -> None:
-        step, before, number = self._items[index], self._items[index - 1], index - 1
-        if step.type != "swing_end":
-            raise InvalidInput(
-                f"step {number} must be of type 'swing_end', got {step.type!r}.", argument="steps"
-            )
-        if step.lift <= before.land:
-            since = f"step {number - 1} lands" if number > 1 else "the plan starts"
-            raise InvalidInput(
-                f"step {number} must lift after {since} at {before.land:.3f} s, "
-                f"got a lift at {step.lift:.3f} s.",
-                argument="steps",
-            )
-        pause = step.lift - before.land
-        if number > 1 and step.foot == before.foot and not (step.again or self.is_stand(pause)):
-            raise InvalidInput(
-                f"step {number} must be taken by the {other(step.foot)} foot, because step "
-                f"{number - 1} was taken by the {step.foot} foot {pause:.3f} s before "
-                f"(a foot may go twice after a stand of {2 * self._weight_shift:.3f} s).",
-                argument="steps",
-            )
 
     def __len__(self) -> int:
         return len(self._items)
@@ -135,6 +113,9 @@ class FootstepPlan(Sequence[Footstep]):
     def __getitem__(self, index: slice) -> tuple[Footstep, ...]: ...
     def __getitem__(self, index: int | slice) -> Footstep | tuple[Footstep, ...]:
         return self._items[index]
+
+    def __iter__(self) -> Iterator[Footstep]:
+        return iter(self._items)
 
     def __repr__(self) -> str:
         return f"FootstepPlan({len(self.steps)} steps, {self.start:.3f} s to {self.end:.3f} s)"
@@ -168,16 +149,31 @@ class FootstepPlan(Sequence[Footstep]):
 
     def swing_at(self, t: float) -> Footstep | None:
         """Return the step in the air at time t (s), lift <= t < land, or None."""
-        index = _until(self._lifts, t) - 1
+        if type(t) is not float or t != t:
+            t = time_of(t)
+        index = bisect_right(self._lifts, t) - 1
         return self._steps[index] if index >= 0 and t < self._lands[index] else None
 
     def sole(self, foot: Foot, t: float) -> Array:
-        """Return where `foot` stands at time t (s), (4, 4); while it swings, where it lifted."""
+        """Return where a foot stands; while it swings, where it lifted.
+
+        Args:
+            foot: which.
+            t: time, s.
+
+        Returns:
+            Sole pose (4, 4) in the world, m.
+
+        Raises:
+            InvalidInput: no foot, or no time.
+        """
         try:
             lands, own = self._by_foot[foot]
         except (KeyError, TypeError):
             lands, own = self._by_foot[foot_of(foot, "foot")]
-        return own[max(0, _until(lands, t) - 1)].pose
+        if type(t) is not float or t != t:
+            t = time_of(t)
+        return own[max(0, bisect_right(lands, t) - 1)].pose
 
     def start_pose(self, step: Footstep) -> Array:
         """Return the (4, 4) sole pose from which `step` lifts."""
@@ -199,10 +195,14 @@ class FootstepPlan(Sequence[Footstep]):
 
     def is_stand(self, pause: float) -> bool:
         """Return whether a double support of `pause` seconds is a stand (>= 2 weight_shift)."""
-        return time_of(pause, "pause") >= 2.0 * self._weight_shift - 1e-9
+        return is_stand(time_of(pause, "pause"), self._weight_shift)
 
     def replace_after(self, t: float, steps: Iterable[Footstep]) -> FootstepPlan:
         """Return the plan with the steps lifted by time t (s), followed by `steps`.
+
+        Args:
+            t: time, s.
+            steps: the swing steps to come, in time order.
 
         Raises:
             InvalidInput: a new step lifts at or before t, or does not fit to those before it.
@@ -259,6 +259,7 @@ class FootstepPlan(Sequence[Footstep]):
         return self._with(tuple(replace(s, pose=by @ s.pose) for s in self._items), ())
 
     def _with(self, kept: tuple[Footstep, ...], new: tuple[Footstep, ...]) -> FootstepPlan:
+        """Return another plan with the same weight shift."""
         plan = object.__new__(FootstepPlan)
         plan._fill(kept, new, self._weight_shift)
         return plan

@@ -26,7 +26,14 @@ from preview_walk.types import FEET, Array, Foot, other
 
 
 def sole_beside(frame: Heading, foot: Foot, step_width: float, z: float = 0.0) -> Array:
-    """Return the (4, 4) pose of a level sole half a step width (m) to its side of `frame`."""
+    """Return the pose (4, 4) of a level sole beside the middle of a stance.
+
+    Args:
+        frame: heading of that middle.
+        foot: whose sole it is.
+        step_width: lateral distance of the two soles, m.
+        z: height of the ground, m.
+    """
     x, y, yaw = compose(frame, 0.0, 0.5 * step_width if foot == "left" else -0.5 * step_width)
     return pose_at(x, y, yaw, z)
 

@@ -25,6 +25,7 @@ what `FootstepPlanner` has."""
 
 
 _ROWS = ("foot", "pose", "lift", "land")
+"""Names of the arrays of `PlanRows`."""
 
 
 class PlanRows(Protocol):
@@ -89,7 +90,8 @@ def _from_items(items: Sequence[object], ratio: float) -> Iterator[Footstep]:
             step = _from_dictionary(item, f"entry {number}", landed, ratio)
         else:
             raise InvalidInput(
-                f"entry {number} must be a Footstep or a dictionary, got {shown(item)}."
+                f"entry {number} must be a Footstep or a dictionary, got {shown(item)}.",
+                argument="plan",
             )
         landed = step.land
         yield step
@@ -99,11 +101,15 @@ def _from_dictionary(item: Mapping[str, Any], name: str, landed: float, ratio: f
     """Return the footstep of one of the lab's dictionaries; the one before it `landed` then (s)."""
     missing = [key for key in ("foot", "pos", "time", "type") if key not in item]
     if missing:
-        raise InvalidInput(f"{name} must have the key {missing[0]!r}, got {shown(item)}.")
+        raise InvalidInput(
+            f"{name} must have the key {missing[0]!r}, got {shown(item)}.", argument="plan"
+        )
     place = real_array(item["pos"], f"pos of {name}", "(x, y) or (x, y, z) in m")
     if place.shape not in ((2,), (3,)):
         came = shown(item["pos"])
-        raise InvalidInput(f"pos of {name} must be (x, y) or (x, y, z) in m, got {came}.")
+        raise InvalidInput(
+            f"pos of {name} must be (x, y) or (x, y, z) in m, got {came}.", argument="plan"
+        )
     x, y, z = (*place.tolist(), 0.0)[:3]
     yaw = finite_number(item.get("yaw", 0.0), f"yaw of {name}", "rad")
     land = finite_number(item["time"], f"time of {name}", "s")
@@ -126,7 +132,8 @@ def _from_rows(rows: object) -> FootstepPlan:
     ):
         raise InvalidInput(
             "its rows must have foot (S,) of 0 and 1, pose (S, 4, 4), lift (S,) and land (S,), "
-            f"got {feet.shape}, {pose.shape}, {lift.shape} and {land.shape}."
+            f"got {feet.shape}, {pose.shape}, {lift.shape} and {land.shape}.",
+            argument="plan",
         )
     # The end of a plan is its last landing and a shift of weight; 1 ns takes off the rounding.
     end = getattr(rows, "end", None)

@@ -75,7 +75,12 @@ def landing_problem(
 
 
 def haste_problem(limits: GaitLimits, air: float) -> StepProblem | None:
-    """Return what is wrong with a foot that is in the air for `air` seconds, or None."""
+    """Return what is wrong with how long a foot is in the air, or None.
+
+    Args:
+        limits: bounds of a step.
+        air: time from lift to landing, s.
+    """
     if air >= limits.min_swing_time - 1e-9:
         return None
     need = f"at least {limits.min_swing_time:.3f} s is needed"

@@ -33,7 +33,10 @@ class Stride:
     def __post_init__(self) -> None:
         """Check the sizes."""
         for name, unit in (("forward", "m"), ("left", "m"), ("turn", "rad")):
-            object.__setattr__(self, name, finite_number(getattr(self, name), name, unit))
+            value = getattr(self, name)
+            number = finite_number(value, name, unit)
+            if number is not value:
+                object.__setattr__(self, name, number)
         for name, unit in (("width", "m"), ("time", "s")):
             value = getattr(self, name)
             if value is not None:

@@ -13,6 +13,7 @@ import numpy as np
 from preview_walk.types import Array
 
 _Angle = TypeVar("_Angle", float, Array)
+"""One angle, or an array of them (rad)."""
 
 
 def yaw(pose: Array) -> Array:
@@ -27,13 +28,23 @@ def wrap(angle: _Angle) -> _Angle:
 
 
 def mid_yaw(left: Array, right: Array) -> Array:
-    """Return the yaw (rad) half way between two sets of poses (..., 4, 4)."""
+    """Return the yaw (rad) half way between two sets of poses.
+
+    Args:
+        left: poses (..., 4, 4).
+        right: as many.
+    """
     start = yaw(left)
     return start + 0.5 * wrap(yaw(right) - start)
 
 
 def turn(points: Array, angle: Array | float) -> Array:
-    """Return plane vectors (..., 2) turned by `angle` (rad, one or one per vector)."""
+    """Return plane vectors (..., 2), turned.
+
+    Args:
+        points: vectors (..., 2).
+        angle: by which they are turned, rad, one or one per vector.
+    """
     c, s = np.cos(angle), np.sin(angle)
     x, y = points[..., 0], points[..., 1]
     return np.stack([c * x - s * y, s * x + c * y], axis=-1)

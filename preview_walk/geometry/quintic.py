@@ -17,7 +17,7 @@ class Quintic:
     Attributes:
         start: beginning of the time span, s.
         end: end of the time span, s.
-        coefficients: of 1, u, ... u^5, with u going from 0 to 1 over the span.
+        coefficients: of the powers of u from 0 to 5, with u going from 0 to 1 over the span.
     """
 
     start: float

@@ -101,7 +101,7 @@ def support_margin(polygon: Array, points: ArrayLike) -> Array:
     """
     p = np.asarray(points, dtype=np.float64)[..., None, :]
     start = polygon
-    edge = np.roll(polygon, -1, axis=0) - start
+    edge = np.concatenate((polygon[1:], polygon[:1])) - start
     length = np.hypot(edge[:, 0], edge[:, 1])
     offset = p - start
     left = (edge[:, 0] * offset[..., 1] - edge[:, 1] * offset[..., 0]) / length
@@ -128,17 +128,23 @@ def sole_gap(a: Heading, b: Heading, sole: Sole) -> float:
     # Extent of the other rectangle along this one's axes, the same for both by symmetry.
     along = sole.half_length + sole.half_length * ct + sole.half_width * st
     across = sole.half_width + sole.half_length * st + sole.half_width * ct
-    gap = -along
-    for yaw in (a[2], b[2]):
-        c, s = cos(yaw), sin(yaw)
-        gap = max(gap, abs(c * dx + s * dy) - along, abs(c * dy - s * dx) - across)
-    return gap
+    c, s = cos(a[2]), sin(a[2])
+    u, v = cos(b[2]), sin(b[2])
+    return max(
+        abs(c * dx + s * dy) - along,
+        abs(c * dy - s * dx) - across,
+        abs(u * dx + v * dy) - along,
+        abs(u * dy - v * dx) - across,
+    )
 
 
 def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:
-    """Return the point (2,) of the support polygon of standing soles nearest to `point` (2,).
+    """Return the point (2,) of the support polygon of standing soles nearest to a point.
 
-    `poses`: (4, 4) of the soles, at least one; `sole`: their half sizes.
+    Args:
+        point: (2,), m.
+        poses: sole poses (4, 4) of the standing feet, at least one.
+        sole: half sizes of the soles.
     """
     x, y = point.tolist()
     for pose in poses:  # nearly always over a sole: no need of the hull
@@ -151,7 +157,12 @@ def within_support(point: Array, poses: Sequence[Array], sole: Sole) -> Array:
 
 
 def nearest_inside(polygon: Array, point: Array) -> Array:
-    """Return the point (2,) of a convex polygon (M, 2), counter-clockwise, nearest to `point`."""
+    """Return the point (2,) of a convex polygon nearest to a point; the point itself inside.
+
+    Args:
+        polygon: vertices (M, 2), counter-clockwise.
+        point: (2,), m.
+    """
     x, y = point.tolist()
     corners = polygon.tolist()
     best, nearest, outside = float("inf"), (x, y), False

@@ -39,6 +39,7 @@ _SAMPLES = 12
 """The plan's own ZMP reference is looked at in this many places of every support phase."""
 
 _PHASES = {DOUBLE_SUPPORT: "double support", LEFT_SUPPORT: "left support"}
+"""Names of the support phases but the last."""
 
 
 def check_plan(

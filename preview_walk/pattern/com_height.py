@@ -49,9 +49,14 @@ class LegGeometry:
 
 
 def wanted_heights(plan: FootstepPlan, times: Array, legs: LegGeometry) -> Array:
-    """Return the wanted height (N,) of the CoM in the world, in m, at increasing times (N,) in s.
+    """Return the wanted height (N,) of the CoM in the world (m).
 
     Constant from the middle of one swing to the middle of the next; it jumps there.
+
+    Args:
+        plan: the walk.
+        times: increasing times (N,), s.
+        legs: how high the CoM can be.
     """
     left, right = (plan.sole(foot, float(times[0])) for foot in FEET)
     soles = {"left": left, "right": right}

@@ -82,6 +82,7 @@ class Swing:
         object.__setattr__(self, "vertical", vertical)
 
     def _apex(self, z0: float, z1: float) -> float:
+        """Return the height (m) of the apex over soles at these two heights (m)."""
         return max(z0, z1) + max(self.swing_height, self.ground_clearance / RISEN_SHARE)
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
@@ -95,9 +96,9 @@ class Swing:
         """
         if type(t) is not float or t != t:
             t = time_of(t)
-        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = (
+        (x, vx, ax), (y, vy, ay), (w, vw, aw), (p, vp, ap), (r, vr, ar) = [
             q.at(t) for q in self.plane
-        )
+        ]
         z, vz, az = self._height(t).at(t)
         pose = pose_at(x, y, w, z, p, r)
         cw, sw, cp, sp = cos(w), sin(w), cos(p), sin(p)
@@ -118,6 +119,7 @@ class Swing:
         return pose, velocity, acceleration
 
     def _height(self, t: float) -> Quintic:
+        """Return the piece of the height's path that holds at time t (s)."""
         for piece in self.vertical:
             if t < piece.end:
                 return piece
@@ -152,6 +154,7 @@ class Swing:
         return replace(self, end=end, land=land, plane=plane, vertical=vertical)
 
     def _new_plane(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
+        """Return the quintics of the plane from the present motion to another landing."""
         now = tuple(q.at(t) for q in self.plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
         plane = tuple(
@@ -164,6 +167,7 @@ class Swing:
         return plane
 
     def _new_vertical(self, t: float, end: Array, land: float) -> tuple[Quintic, ...]:
+        """Return the quintics of the height from the present motion to another landing."""
         z0, z1 = float(self.start[2, 3]), float(end[2, 3])
         piece = self._height(t)
         now, target = piece.at(t), sum(piece.coefficients)
@@ -234,6 +238,7 @@ def swing_of(
 
 
 def _coordinates(pose: Array) -> tuple[float, ...]:
+    """Return x, y, yaw, pitch and roll of a pose."""
     roll, pitch, yaw = rpy_of(pose)
     return float(pose[0, 3]), float(pose[1, 3]), yaw, pitch, roll
 

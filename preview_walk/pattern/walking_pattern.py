@@ -34,8 +34,14 @@ HEIGHT_EFFORT = 3e-3
 class ComReference:
     """What the CoM should do at one instant, in the world.
 
-    `com`, `velocity`, `acceleration` (3,), m; `zmp` (2,): the ZMP of that motion; `zmp_ref` (2,):
-    the plan's; `dcm` (2,): com + velocity / omega; `ground`: height (m) the ZMP lies on.
+    Attributes:
+        com: (3,) position, m.
+        velocity: (3,), m/s.
+        acceleration: (3,), m/s^2.
+        zmp: (2,) the ZMP of that motion, m.
+        zmp_ref: (2,) the ZMP that the plan asks for, m.
+        dcm: (2,) com + velocity / omega, m.
+        ground: height that the ZMP lies on, m.
     """
 
     com: Array
@@ -65,7 +71,16 @@ class WalkingPattern:
         momentum: MomentumModel,
         swing_height: float,
     ) -> None:
-        """Start at the plan's start with the CoM at rest at `com` (3,), in m."""
+        """Start at the plan's start with the CoM at rest.
+
+        Args:
+            plan: the footsteps.
+            com: (3,) where the CoM is, m.
+            legs: how high it can be.
+            sole: half sizes of the soles.
+            momentum: angular momentum of the swinging legs.
+            swing_height: of the apex of a swing, m.
+        """
         self.legs = legs
         height = momentum.effective_height(legs.com_height)
         self.omega = (GRAVITY / height) ** 0.5
@@ -121,6 +136,10 @@ class WalkingPattern:
 
         The error that remains against the measured state is that of the DCM alone, which is what
         the feedback can act on.
+
+        Args:
+            t: now, s.
+            com: (2,) measured, m.
         """
         self._tick = max(self._tick, int((t - self._start) / PLANNING_DT + 1e-9))
         sample = min(self._tick - self._first, len(self._samples) - 1)

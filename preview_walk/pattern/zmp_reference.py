@@ -81,10 +81,10 @@ class ZMPReference:
     def _locate(self, t: ArrayLike) -> tuple[Array, Array]:
         """Return the polynomials (..., 4, 2) at times t (s), and the times since they began."""
         times = real_array(t, "t", "times in s")
-        if not (np.abs(times) <= LARGEST).all():
+        if not abs(float(times.sum())) <= LARGEST * times.size:
             raise InvalidInput(f"t must be finite times in s, got {shown(t)}.", argument="t")
         i = np.searchsorted(self.times, times, side="right")
-        return self._coefficients[i], (times - self._origins[i])[..., None]
+        return self._coefficients.take(i, axis=0), (times - self._origins.take(i))[..., None]
 
 
 def zmp_reference(

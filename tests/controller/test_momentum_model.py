@@ -135,3 +135,18 @@ def test_foresees_the_zmp_shift_of_the_multibody_robot(
     assert np.abs(true[inner, 0]).max() > 0.01
     # To first order: 8 cm forward and 4 cm up are not nothing to a leg of 0.8 m.
     assert np.abs(foreseen - true)[inner].max() < 0.15 * np.abs(true[inner]).max()
+
+
+def test_the_figures_of_the_theory(robot: Robot, model: MomentumModel) -> None:
+    """What docs/theory.md, section 4, says of TALOS."""
+    assert robot.com_height == pytest.approx(0.876, abs=5e-4)
+    assert model.effective_height(robot.com_height) == pytest.approx(1.009, abs=5e-4)
+    assert (GRAVITY / model.effective_height(robot.com_height)) ** 0.5 == pytest.approx(
+        3.12, abs=5e-3
+    )
+    half = 0.5 * robot.step_width
+    plan = FootstepPlan.standing(pose_at(-0.25, half), pose_at(0.0, -half)).replace_after(
+        0.0, [Footstep("left", pose_at(0.25, half), 1.0, 1.7)]
+    )
+    shift = swing_zmp_shift(plan, np.arange(0.0, 2.0, 0.005), model, 0.06 * robot.leg_length)
+    assert np.abs(shift).max() == pytest.approx(0.055, abs=5e-4)

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole, nearest_inside, support_margin, support_polygon
-from preview_walk.pattern.dcm import planned_dcm
+from preview_walk.pattern.dcm import dcm_of, planned_dcm
 from preview_walk.types import Array
 
 OMEGA, DT = 3.3, 0.005
@@ -83,3 +83,12 @@ def test_nearest_inside_is_inside_and_nearest(polygon: Array, x: float, y: float
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         distances = np.linalg.norm(a + share * (b - a) - point, axis=1)
         assert (distances >= np.linalg.norm(found - point) - 1e-12).all()
+
+
+def test_of_a_falling_pendulum_grows_as_it_does() -> None:
+    """c = a exp(omega t) + b exp(-omega t) about a ZMP at 0: the DCM is the part that runs away."""
+    a, b = np.array([0.01, -0.02]), np.array([0.05, 0.03])
+    for t in (0.0, 0.3, 1.0):
+        grow, fade = np.exp(OMEGA * t), np.exp(-OMEGA * t)
+        com, velocity = a * grow + b * fade, OMEGA * (a * grow - b * fade)
+        assert dcm_of(com, velocity, OMEGA) == pytest.approx(2.0 * a * grow)
