@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from preview_walk.errors import PreviewWalkError
+from preview_walk.errors import InvalidInput, PreviewWalkError
 
 _PART = ".part-"
 """How temporary names begin; the number of the process that writes the file follows."""
@@ -21,6 +21,21 @@ class OutputError(PreviewWalkError, OSError):
         return str(self.args[0])
 
 
+def as_path(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a file or folder.
+
+    Raises:
+        InvalidInput: it is no path.
+    """
+    try:
+        found = Path(path)
+    except TypeError:
+        found = Path("\0")
+    if "\0" in str(found):
+        raise InvalidInput(f"a file's name must be a path, got {path!r:.80}.", argument="path")
+    return found
+
+
 @contextmanager
 def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give a temporary path beside `path`; put it in place of `path` once it is whole.
@@ -30,9 +45,10 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     and leaves an older `path` as it was.
 
     Raises:
+        InvalidInput: it is no path.
         OutputError: the file cannot be written (folder missing, no permission, disk full).
     """
-    target = Path(path)
+    target = as_path(path)
     part = target.with_name(f"{_PART}{os.getpid()}-{target.name}")
     try:
         yield part

@@ -25,6 +25,7 @@ from preview_walk.analysis.phase_plots import draw_phases, draw_timing_errors
 from preview_walk.analysis.style import new_figure, save_figure
 from preview_walk.analysis.top_view import draw_top_view
 from preview_walk.errors import InvalidInput
+from preview_walk.files import as_path
 from preview_walk.record.record import Record
 
 
@@ -124,8 +125,10 @@ def save_plot(record: Record, name: str, path: str | os.PathLike[str]) -> Path:
             suffix.
         OutputError: the file cannot be written.
     """
-    if name not in PLOTS:
-        raise InvalidInput(f"a plot's name must be one of {', '.join(PLOTS)}, got '{name}'.")
+    if name not in list(PLOTS):
+        raise InvalidInput(
+            f"a plot's name must be one of {', '.join(PLOTS)}, got {name!r}.", argument="name"
+        )
     _require_ticks(record)
     return save_figure(PLOTS[name](record), path)
 
@@ -137,7 +140,7 @@ def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
         InvalidInput: the record is empty.
         OutputError: a file cannot be written.
     """
-    return [save_plot(record, name, Path(folder, f"{name}.png")) for name in PLOTS]
+    return [save_plot(record, name, as_path(folder) / f"{name}.png") for name in PLOTS]
 
 
 def _require_ticks(record: Record) -> None:

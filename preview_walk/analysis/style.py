@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import whole_file
+from preview_walk.files import as_path, whole_file
 from preview_walk.record.record import Record
 from preview_walk.types import FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
@@ -62,7 +62,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str]) -> Path:
         InvalidInput: matplotlib does not know the suffix.
         OutputError: the file cannot be written.
     """
-    target = Path(path)
+    target = as_path(path)
     formats = sorted(figure.canvas.get_supported_filetypes())
     suffix = target.suffix.lstrip(".").lower()
     if suffix not in formats:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import whole_file
+from preview_walk.files import as_path, whole_file
 
 FORMAT = 1
 """Number of the file format, raised when a reader of the old one would misread the new."""
@@ -59,20 +59,16 @@ def read_file(
         InvalidInput: the file is missing, is no record, is damaged, has a newer format, or would
             take memory out of proportion to its size.
     """
-    try:
-        shown, found = os.fsdecode(path), os.path.exists(path)
-    except (TypeError, ValueError):
-        raise InvalidInput(
-            f"a record's file must be a path, got {path!r:.80}.", argument="path"
-        ) from None
-    if not found:
+    path = as_path(path)
+    shown = os.fspath(path)
+    if not os.path.exists(path):  # which answers where `Path.exists` raises: a name too long
         raise InvalidInput(f"record file {shown} does not exist.", argument="path")
     try:
-        if not os.path.isfile(path):
+        if not path.is_file():
             raise ValueError("it is not a file")
         with zipfile.ZipFile(path) as archive:
             members = {name: archive.getinfo(f"{name}.npy") for name in (FACTS, *names)}
-            _require_proportion(list(members.values()), os.path.getsize(path))
+            _require_proportion(list(members.values()), path.stat().st_size)
             arrays = {name: _read_array(archive, entry) for name, entry in members.items()}
         facts = json.loads(str(arrays.pop(FACTS)[()]))
         if not isinstance(facts, dict) or not isinstance(facts.get("format"), int):

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.files import as_path
 from preview_walk.geometry.poses import midfeet
 from preview_walk.offscreen import RenderError, off_screen
 from preview_walk.record.record import Record
@@ -88,7 +89,7 @@ def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> 
     """
     import imageio.v2 as imageio
 
-    target = Path(path)
+    target = as_path(path)
     count = max(1, int((record.time[-1] - record.time[0]) * FPS))
     times = record.time[0] + np.arange(count) / FPS
     try:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import io
 import os
 import re
 import subprocess
@@ -11,9 +13,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from preview_walk.cli import main as cli
 from preview_walk.cli import options as cli_options
+from preview_walk.cli.option_table import OPTIONS
 from preview_walk.cli.options import parse
 
 
@@ -70,6 +75,32 @@ def test_every_option_is_read() -> None:
         inspect="my.urdf",
         no_plots=True,
     )
+
+
+PIECES = st.one_of(
+    st.sampled_from([option.name for option in OPTIONS]),
+    st.sampled_from(["--steps=", "--", "-", "every=1,impulse=2", "1e999", "nan,0,0", "0x1", "1_0"]),
+    st.floats().map(str),
+    st.integers().map(str),
+    st.lists(st.floats(), max_size=6).map(lambda xs: ",".join(map(str, xs))),
+    st.text(max_size=8),
+)
+
+
+@settings(max_examples=400)
+@given(st.lists(PIECES, max_size=4))
+def test_any_line_is_read_or_gets_one_sentence(line: list[str]) -> None:
+    errors, options = io.StringIO(), None
+    with contextlib.redirect_stderr(errors), contextlib.suppress(SystemExit):
+        options = parse(line)
+    if options is None:
+        assert errors.getvalue().startswith("preview-walk: ")
+        assert errors.getvalue().count("\n") == 1
+    else:
+        numbers = [options.step_length, options.step_time, options.turn, *options.start]
+        numbers += [x for command, duration in options.commands for x in (*command, duration)]
+        numbers += [x for t, duration, force in options.pushes for x in (t, duration, *force)]
+        assert np.abs(numbers).max() <= 1e5
 
 
 def test_velocities_and_durations_go_in_pairs_in_their_order() -> None:

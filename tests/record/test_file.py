@@ -7,6 +7,7 @@ import json
 import os
 import tracemalloc
 import zipfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 from synthetic_walk import walk_record
 
+from preview_walk.analysis.plots import plot
 from preview_walk.errors import InvalidInput
 from preview_walk.record import file as record_file
 from preview_walk.record.record import Record
@@ -181,9 +183,16 @@ def test_a_size_that_the_directory_lies_about_is_not_believed(parts: PARTS, tmp_
 
 @pytest.mark.parametrize("path", [None, 3.5, ["x"], "a\0b"])
 def test_what_is_no_path_gets_one_sentence(path: Any) -> None:
-    with pytest.raises(InvalidInput, match="record") as caught:
-        Record.load(path)
-    assert caught.value.argument == "path"
+    record = walk_record(2)
+    for use in (Record.load, record.save, record.summary().write, partial(plot, record)):
+        with pytest.raises(InvalidInput, match=r"^a file's name must be a path, got") as caught:
+            use(path)
+        assert caught.value.argument == "path"
+
+
+def test_a_name_too_long_is_of_no_file(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match="does not exist"):
+        Record.load(tmp_path / ("x" * 5000))
 
 
 def test_folders_and_pipes_are_no_records(tmp_path: Path) -> None:
