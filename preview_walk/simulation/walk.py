@@ -13,9 +13,7 @@ from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.footsteps.reading import PlanLike, as_plan
-from preview_walk.geometry.poses import as_heading, pose_at
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import standing_configuration
@@ -26,7 +24,7 @@ from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
-from preview_walk.simulation.world import plant_of
+from preview_walk.simulation.standing import plant_of, standing_plan
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.types import FEET
@@ -41,6 +39,7 @@ Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
 
 _ROUNDING = 1e-9
+_ATTRIBUTES = ("robot", "plant", "walker", "limits", "plan")
 
 
 class Walk:
@@ -56,24 +55,6 @@ class Walk:
         walker: the controller.
         limits: what steps the robot's legs can make by command.
     """
-
-    __slots__ = (
-        "_commands",
-        "_dt",
-        "_fall",
-        "_interrupted",
-        "_on_tick",
-        "_recorder",
-        "_requests",
-        "_start",
-        "_substeps",
-        "_tick",
-        "_wall",
-        "limits",
-        "plant",
-        "robot",
-        "walker",
-    )
 
     def __init__(
         self,
@@ -145,44 +126,30 @@ class Walk:
         self._fall: tuple[float, str] | None = None
         self._interrupted = False
         self._recorder = WalkRecorder(
-            self.plant,
-            self.walker,
-            control_hz=control_hz,
-            seed=seed,
-            solver=solver,
+            self.plant, self.walker, control_hz=control_hz, seed=seed, solver=solver
         )
 
     @classmethod
     def standing(
         cls, robot: Robot | Plant, start: Sequence[float] = (0.0, 0.0), **settings: Any
     ) -> Walk:
-        """Return a walk that stands, to be moved by `command`.
+        """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
 
-        Args:
-            robot: a robot or a plant, as for `Walk`.
-            start: x, y[, yaw] of the middle of the feet, m, rad.
-            settings: the keyword arguments of `Walk`.
+        `settings` are the keyword arguments of `Walk`.
         """
-        x, y, yaw = as_heading(start, "start")
-        body, z = robot, 0.0
-        if not isinstance(robot, Robot):
-            body, z = robot.robot, robot.ground.height(x, y)
-        assert isinstance(body, Robot)
-        plan = FootstepPlanner(step_width=body.step_width).generate_footsteps(0, (x, y, yaw))
-        return cls(robot, plan.transformed(pose_at(0.0, 0.0, z=z)), **settings)
+        return cls(robot, standing_plan(robot, start), **settings)
 
     def __repr__(self) -> str:
         state = "fallen" if self.fallen else f"{len(self.plan.steps)} steps planned"
         return f"Walk({self.robot.name}, {self.time:.3f} s, {state})"
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Return everything (Python 3.10 does not do so by itself for slots)."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take everything."""
-        for name, value in state.items():
-            setattr(self, name, value)
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse what a walk does not have, and would ignore."""
+        if not (name.startswith("_") or name in _ATTRIBUTES):
+            raise AttributeError(
+                f"a Walk has no '{name}'; give settings when it is made, and assign plan."
+            )
+        object.__setattr__(self, name, value)
 
     @property
     def time(self) -> float:
@@ -282,8 +249,7 @@ class Walk:
             progress: called now and then with the simulated time and its end (s).
 
         Raises:
-            InvalidInput: `until` is no time, or is not given while a command is in force, which
-                would be a walk for ever.
+            InvalidInput: no `until`, or nan, while a command is in force: a walk for ever.
         """
         if until is not None and np.isnan(until):
             raise InvalidInput(f"until must be a time in s, got {until}.", "until")

@@ -14,9 +14,7 @@ from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.standing import at_com_height
 from preview_walk.robots.state import to_mujoco, to_pinocchio
-from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push, Pusher
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
@@ -117,26 +115,3 @@ class World:
         for _ in range(steps):
             self.push = self._pusher.apply(data.time, data)
             mujoco.mj_step(self.model, data)
-
-
-def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) -> Plant:
-    """Return a robot's world with these settings, or a plant as it is.
-
-    Args:
-        robot: a robot, or a plant.
-        com_height: that the robot is to stand with, m; None leaves its walking posture.
-        settings: keyword arguments of `World`; None takes its defaults.
-
-    Raises:
-        InvalidInput: a setting that cannot be, or that a plant has already.
-    """
-    given = {name: value for name, value in settings.items() if value is not None}
-    if isinstance(robot, Robot):
-        body = robot if com_height is None else at_com_height(robot, com_height)
-        return World(body, **given)
-    names = [*given, *([] if com_height is None else ["com_height"])]
-    if names:
-        raise InvalidInput(
-            f"{names[0]} must be left out beside a plant, which has its own.", names[0]
-        )
-    return robot

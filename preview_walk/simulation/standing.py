@@ -1,0 +1,54 @@
+"""How a walk begins: a plant for a robot, and a plan to stand on in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.planner import FootstepPlanner
+from preview_walk.geometry.poses import as_heading, pose_at
+from preview_walk.robots.robot import Robot
+from preview_walk.robots.standing import at_com_height
+from preview_walk.simulation.plant import Plant
+from preview_walk.simulation.world import World
+
+
+def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) -> Plant:
+    """Return a robot's world with these settings, or a plant as it is.
+
+    Args:
+        robot: a robot, or a plant.
+        com_height: that the robot is to stand with, m; None leaves its walking posture.
+        settings: keyword arguments of `World`; None takes its defaults.
+
+    Raises:
+        InvalidInput: a setting that cannot be, or that a plant has already.
+    """
+    given = {name: value for name, value in settings.items() if value is not None}
+    if isinstance(robot, Robot):
+        body = robot if com_height is None else at_com_height(robot, com_height)
+        return World(body, **given)
+    names = [*given, *([] if com_height is None else ["com_height"])]
+    if names:
+        raise InvalidInput(
+            f"{names[0]} must be left out beside a plant, which has its own.", names[0]
+        )
+    return robot
+
+
+def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:
+    """Return the plan of a robot that stands as wide as in its posture, on the ground.
+
+    Args:
+        robot: a robot, on ground of height 0, or a plant with its own.
+        start: x, y[, yaw] of the middle of the feet, m, rad.
+    """
+    x, y, yaw = as_heading(start, "start")
+    if isinstance(robot, Robot):
+        width, z = robot.step_width, 0.0
+    else:
+        width, z = robot.robot.step_width, robot.ground.height(x, y)
+    plan = FootstepPlanner(step_width=width).stand((x, y, yaw))
+    return plan.transformed(pose_at(0.0, 0.0, z=z)) if z else plan
