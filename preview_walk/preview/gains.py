@@ -107,7 +107,7 @@ def preview_gains(
                 argument="final_cost",
             )
         final = weight_matrix("final_cost", final_cost, p + n)
-        return receding_horizon(plant, weights, final, horizon)
+        return _usable(receding_horizon(plant, weights, final, horizon))
     if integral:
         law = solve_reachable(error_augmented(plant, weights), p)
         columns = -law.riccati[:, :p], law.riccati @ np.vstack([plant.C @ plant.E, plant.E])
@@ -119,12 +119,28 @@ def preview_gains(
     slow = slow_mode(law.closed, law.left, np.hstack(columns))
     count = samples(horizon, slow, len(law.closed))
     warn_if_short(count, slow, float(plant.dt), stacklevel=2)
-    return PreviewDesign(
+    design = PreviewDesign(
         plant, weights.Q_e, weights.Q_x, weights.R,
         own, law.gain[:, p:].copy() if integral else law.gain,
         _decaying(law, columns[0], count), law.riccati, law.closed, law.residual, slow,
         _decaying(law, columns[1], count), integral,
     )  # fmt: skip
+    return _usable(design)
+
+
+def _usable(design: PreviewDesign) -> PreviewDesign:
+    """Return a design whose law as a window can be formed, or refuse its weights."""
+    try:
+        parts = design.feedback, design.window_gain, design.disturbance_window_gain
+        usable = all(np.isfinite(part).all() for part in parts)
+    except np.linalg.LinAlgError:
+        usable = False
+    if not usable:
+        raise InvalidInput(
+            "expected weights whose gains can be computed, got R + G' P G singular to rounding.",
+            argument="R",
+        )
+    return design
 
 
 def _decaying(law: Law, column: Array, count: int) -> Array:

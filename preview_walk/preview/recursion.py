@@ -18,7 +18,14 @@ class Recursion:
     """z(k+1) = A z(k) + B w(k) over long sequences, a block of samples per matrix product."""
 
     def __init__(self, a: Array, b: Array, levels: int = 2) -> None:
-        """Prepare A (n, n) and B (n, m); each level shortens the loop in Python by `_BLOCK`."""
+        """Prepare the products of a block.
+
+        Args:
+            a: (n, n) A.
+            b: (n, m) B.
+            levels: How often the loop in Python is shortened by `_BLOCK`.
+
+        """
         n, m = b.shape
         self._a, self._b = a, b
         self._inner: Recursion | None = None
@@ -38,7 +45,13 @@ class Recursion:
         self._inner = Recursion(powers[-1], np.eye(n), levels - 1)
 
     def run(self, w: Array, start: Array) -> Array:
-        """Return z (batch, M, n) for w (batch, M, m); z[:, 0] is start (batch, n)."""
+        """Return z (batch, M, n); z[:, 0] is the start.
+
+        Args:
+            w: (batch, M, m) inputs.
+            start: (batch, n) z at sample 0.
+
+        """
         batch, length, inputs = w.shape
         if self._inner is None:
             z = np.empty((batch, length, start.shape[1]))

@@ -47,14 +47,25 @@ class Correlation:
     """sum_l G(l) s(k + l) of a signal held at its last value, for gains G(0) to G(N - 1)."""
 
     def __init__(self, gains: Array) -> None:
-        """Transform the gains (N, m, c), once."""
+        """Transform the gains, once.
+
+        Args:
+            gains: (N, m, c) G.
+
+        """
         self._count = len(gains)
         # About eight horizons to a block is where FFT work per sample is smallest.
         self._block = int(next_fast_len(max(8 * self._count, 512), real=True))
         self._spectrum = np.conj(rfft(np.moveaxis(gains, 0, -1), self._block, axis=-1))
 
     def run(self, signal: Array, ahead: int = 0) -> Array:
-        """Return (batch, m, M) for a signal (batch, c, M) that is read from k + ahead on."""
+        """Return the sums (batch, m, M).
+
+        Args:
+            signal: (batch, c, M) s.
+            ahead: The sample after k at which G(0) reads; 0 or 1.
+
+        """
         batch, rows, length = signal.shape
         valid = self._block - self._count + 1
         blocks = -(-length // valid)
@@ -71,7 +82,12 @@ class PreviewFilter:
     """A preview design made ready to run over references; make one, use it often."""
 
     def __init__(self, design: PreviewDesign) -> None:
-        """Transform the gains of a design and prepare its loop, once."""
+        """Transform the gains of a design and prepare its loop, once.
+
+        Args:
+            design: The design.
+
+        """
         self._design = design
         seen = design.horizon > 0
         self._reference = Correlation(design.window_gain) if seen else None
@@ -84,10 +100,15 @@ class PreviewFilter:
         self._recursion = Recursion(a, np.hstack([b, e]))
 
     def preview_action(self, reference: Array, disturbance: Array | None = None) -> Array:
-        """Return the action (batch, m, M) for a reference (batch, p, M) held at its last value.
+        """Return the action (batch, m, M).
 
-        A disturbance (batch, q, M) that no window shows (N = 0) acts through the drift it left in
-        the state: x(k) - A x(k-1) - B u(k-1) = E w(k-1).
+        A disturbance that no window shows (N = 0) acts through the drift it left in the state:
+        x(k) - A x(k-1) - B u(k-1) = E w(k-1).
+
+        Args:
+            reference: (batch, p, M), held at its last value.
+            disturbance: (batch, q, M), held at its last value; none when None.
+
         """
         design = self._design
         if self._reference is not None:
@@ -108,8 +129,11 @@ class PreviewFilter:
     ) -> tuple[Array, Array]:
         """Return the loop's states (batch, M, z) and the preview action (batch, M, m).
 
-        reference is (batch, p, M), disturbance (batch, q, M), start (batch, z) the state at sample
-        0; states are [x(k); u(k-1)], or x(k) without integral action.
+        Args:
+            reference: (batch, p, M).
+            start: (batch, z) the state at sample 0, [x; u before], or x without integral action.
+            disturbance: (batch, q, M); none when None.
+
         """
         action = np.swapaxes(self.preview_action(reference, disturbance), 1, 2)
         inputs = action

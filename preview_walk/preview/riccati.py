@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import NamedTuple
 
 import numpy as np
+import scipy.linalg
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.problem import Problem, require_detectable
@@ -53,7 +55,9 @@ def solve_riccati(problem: Problem) -> Law:
     require_detectable(problem.phi, problem.q)
     arguments = (problem.phi, problem.g, problem.q, problem.r)
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            # What an ill-conditioned equation gives is checked below.
+            warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
             solution = control.dare(*arguments, *(() if problem.s is None else (problem.s,)))[0]
             riccati = np.asarray(solution, dtype=float)
             law = law_of(problem, (riccati + riccati.T) / 2.0)

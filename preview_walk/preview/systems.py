@@ -12,12 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from preview_walk.errors import InvalidInput
 from preview_walk.preview.checks import require_type
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.types import Array
 
 if TYPE_CHECKING:
     import control
+
+
+MAX_DELAYS = 3000
+"""Longest horizon that is made a system: its state matrix has the square of it as entries."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +157,11 @@ def _filter(design: PreviewDesign, *, drift: bool = False) -> _Filter:
     With `drift`, a disturbance that no window shows (N = 0) acts by what it left in the state.
     """
     n_ahead, m = design.horizon, design.plant.B.shape[1]
+    if n_ahead > MAX_DELAYS:
+        raise InvalidInput(
+            f"expected a design of at most {MAX_DELAYS} samples for a system, got {n_ahead}.",
+            argument="design",
+        )
     p, q = len(design.plant.C), design.plant.E.shape[1]
     gains = np.concatenate([design.present_gain[None], design.window_gain])
     of_r = _line(gains, p, n_ahead)

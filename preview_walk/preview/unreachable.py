@@ -65,7 +65,13 @@ def solve_reachable(problem: Problem, outputs: int) -> Law:
         sigma = np.linalg.solve(np.eye(len(law.closed)) - law.closed.T, linear)
         cross = part.lift.T @ sigma @ part.fixed.T
         riccati = part.lift.T @ law.riccati @ part.lift + cross + cross.T
-    return law_of(problem, seen.lift.T @ riccati @ seen.lift)._replace(residual=law.residual)
+    try:
+        whole = law_of(problem, seen.lift.T @ riccati @ seen.lift)
+    except np.linalg.LinAlgError as error:
+        raise InvalidInput(
+            f"expected weights whose gains can be computed, got: {error}.", argument="R"
+        ) from error
+    return whole._replace(residual=law.residual)
 
 
 def _seen(problem: Problem, outputs: int) -> _Part:

@@ -112,3 +112,31 @@ def test_weights_of_every_size() -> None:
                     assert np.isfinite(design.feedback).all()
                     assert design.residual < 1e-8
     assert refused < 200
+
+
+def test_random_plants_and_ill_conditioned_weights() -> None:
+    """Where R + G' P G is singular to rounding, the sentence says so: no bare LinAlgError."""
+    rng, designed = np.random.default_rng(0), 0
+    for trial in range(400):
+        n, m, p = rng.integers(1, 6), rng.integers(1, 4), rng.integers(1, 4)
+        a = rng.normal(size=(n, n)) * 10 ** rng.uniform(-2, 1)
+        b = rng.normal(size=(n, m)) * 10 ** rng.uniform(-6, 6)
+        c = rng.normal(size=(p, n)) * 10 ** rng.uniform(-6, 6)
+        d = rng.normal(size=(p, m)) * rng.integers(0, 2)
+        q_e, r = ((7e6, 4e-12), (3e8, 6e-11), (1.0, 1.0))[trial % 3]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                design = preview_gains((a, b, c, d), q_e, 0.0, r, 3, integral=bool(trial % 2))
+            except InvalidInput:
+                continue
+        designed += 1
+        assert np.isfinite(design.feedback).all()
+    assert designed > 150
+
+
+@pytest.mark.parametrize(("q_e", "r"), [(7e6, 4e-12), (3e8, 6e-11)])
+def test_inputs_that_only_tiny_weights_tell_apart(q_e: float, r: float) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        preview_gains(([[0.9]], [[1.0, 1.0]], [[1.0]], [[0.0, 0.0]]), q_e, 0.0, r, 3)
+    assert caught.value.argument == "R"
