@@ -77,10 +77,6 @@ from .robots.load import load_robot as load_robot
 from .robots.robot import Robot as Robot
 from .simulation.pushes import Push as Push
 from .simulation.pushes import random_pushes as random_pushes
-
-# Walks.
-from .simulation.simulate import simulate as simulate
-from .simulation.simulate import simulate_commands as simulate_commands
 from .simulation.walk import Walk as Walk
 
 # Tracking: tasks and contacts in, torques out.
@@ -89,3 +85,7 @@ from .tracking.gains import TrackingGains as TrackingGains
 from .tracking.tasks import Task as Task
 from .tracking.whole_body import WholeBodyController as WholeBodyController
 from .viewer.video import render_video as render_video
+
+# Walks.
+from .whole_walks import simulate as simulate
+from .whole_walks import simulate_commands as simulate_commands

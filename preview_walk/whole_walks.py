@@ -1,4 +1,4 @@
-"""Whole walks in one call: along a plan, or by velocity commands."""
+"""Whole walks in one call, along a plan or by velocity commands, watched or not."""
 
 from __future__ import annotations
 
