@@ -25,7 +25,7 @@ import numpy as np
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.controller.robot_limits import gait_limits
+from preview_walk import gait_limits
 
 Command = tuple[float, float, float]
 Timetable = list[tuple[float, Command]]

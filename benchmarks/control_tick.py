@@ -21,14 +21,19 @@ import numpy as np
 import qpsolvers
 from tick_solvers import DirectDaqp, Prepare, Solve, by_qpsolvers, exact, fresh_osqp
 
-from preview_walk import FootstepPlanner, Walk, load_robot
-from preview_walk.errors import PreviewWalkError
-from preview_walk.robots.robot import Robot
-from preview_walk.robots.state import to_mujoco
-from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.qp.problem import TickProblem
-from preview_walk.tracking.whole_body import WholeBodyController
-from preview_walk.types import Array, Foot
+from preview_walk import (
+    Array,
+    Foot,
+    FootstepPlanner,
+    PreviewWalkError,
+    Robot,
+    TickProblem,
+    TrackingGains,
+    Walk,
+    WholeBodyController,
+    load_robot,
+    to_mujoco,
+)
 
 FRICTION = 0.8
 STEP = 0.3

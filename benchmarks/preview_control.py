@@ -15,8 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from preview_walk.preview.controller import ComState, PreviewController
-from preview_walk.types import Array
+from preview_walk import Array, ComState, PreviewController
 
 DT = 0.005
 STEP_TIME, RAMP, STAND = 0.5, 0.1, 2.0

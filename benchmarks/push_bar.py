@@ -24,7 +24,7 @@ from push_bound_table import GAITS
 from push_recovery import ANGLES, SHARES, Cell, cells, survives
 from tqdm import tqdm
 
-from preview_walk.capturability.bound import largest_impulse
+from preview_walk import largest_impulse
 
 OF_BAR = (0.6, 0.8, 1.0)
 """Shares of the bar that are tried."""

@@ -18,8 +18,7 @@ import time
 from dataclasses import replace
 from typing import get_args
 
-from preview_walk.capturability.bound import Answer, Direction, PushGait, largest_impulse
-from preview_walk.geometry.support import Sole
+from preview_walk import Answer, Direction, PushGait, Sole, largest_impulse
 
 TALOS = PushGait(
     mass=90.3,
@@ -86,12 +85,12 @@ def own_limits(name: str) -> PushGait:
     The swing speed is a mean: of a foot that is at its top speed, over the rest of its way.
     """
     import preview_walk as pw
-    from preview_walk.stabilizer.recovery import Recovery
     from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE
     from preview_walk.stabilizer.step_adaptation import SPEED_SHARE
 
     gait = GAITS[name]
-    limits = Recovery(pw.load_robot(name.lower()), gait.omega).limits
+    robot = pw.load_robot(name.lower())
+    limits = pw.step_limits(robot.leg_length, robot.step_width, robot.sole, gait.omega)
     shortest, longest = limits.swing_time
     return replace(
         gait,

@@ -32,8 +32,7 @@ from push_bound_table import GAITS
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.capturability.bound import Answer, largest_impulse
-from preview_walk.types import Foot, other
+from preview_walk import Answer, Foot, largest_impulse, other
 
 ANGLES = tuple(range(0, 360, 45))
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9, None)

@@ -14,9 +14,7 @@ from time import thread_time
 
 import numpy as np
 
-from preview_walk import FootstepPlanner, Record, Walk, load_robot
-from preview_walk.robots.robot import Robot
-from preview_walk.simulation.world import World
+from preview_walk import FootstepPlanner, Record, Robot, Walk, World, load_robot
 
 HZ = 1000
 

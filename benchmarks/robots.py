@@ -31,9 +31,7 @@ from speed_sweep import holds, walk_at
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.controller.robot_limits import command_limits
-from preview_walk.footsteps.gaits import turn_in_place
-from preview_walk.robots.reading.description import catalogue
+from preview_walk import catalogue, command_limits, turn_in_place
 
 GRAVITY = 9.81
 CLOSE = 0.0125

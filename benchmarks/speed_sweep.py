@@ -26,8 +26,7 @@ from matplotlib.figure import Figure
 from tqdm import tqdm
 
 import preview_walk as pw
-from preview_walk.controller.robot_limits import gait_limits
-from preview_walk.footsteps.velocity import saturated
+from preview_walk import gait_limits, saturated
 
 SHARES = [0.08 * k for k in range(1, 17)]
 """Speeds, as shares of the fastest within the limits."""

@@ -15,8 +15,7 @@ import osqp
 import qpsolvers
 import scipy.sparse as sparse
 
-from preview_walk.tracking.qp.problem import TickProblem
-from preview_walk.types import Array
+from preview_walk import Array, TickProblem
 
 Solve = Callable[[], tuple[Array, Array]]
 """Returns accelerations and wrenches."""

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 
 import preview_walk as pw
-from preview_walk.viewer.video import frames
+from preview_walk import frames
 
 HERE = Path(__file__).parent
 COUNT, HEIGHT, WIDTH = 7, 420, 200  # pictures in the strip, and their pixels

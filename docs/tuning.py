@@ -12,8 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.robots.robot import Robot
+from preview_walk import FootstepPlan, Robot
 
 HERE = Path(__file__).parent
 GAINS = (

@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 
 import preview_walk as pw
-from preview_walk.controller.robot_limits import gait_limits
+from preview_walk import gait_limits
 
 RADIUS = 1.0
 

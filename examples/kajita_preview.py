@@ -13,11 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from preview_walk.preview.cart_table import cart_table
-from preview_walk.preview.controller import PreviewController
-from preview_walk.preview.gains import preview_gains
-from preview_walk.preview.response import preview_effect
-from preview_walk.types import Array
+from preview_walk import Array, PreviewController, cart_table, preview_effect, preview_gains
 
 Z_C, DT = 0.814, 0.005
 STAND = 2.2  # longer than every horizon, so that no step comes as a surprise

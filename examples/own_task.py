@@ -13,8 +13,7 @@ import numpy as np
 import pinocchio as pin
 
 import preview_walk as pw
-from preview_walk.tracking.dynamics import Dynamics
-from preview_walk.types import Array
+from preview_walk import Array, Dynamics
 
 
 class CarryLevel:

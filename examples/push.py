@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.record.plan_log import PlanRevision
+from preview_walk import PlanRevision
 
 FORCE, DURATION = (240.0, 100.0, 0.0), 0.2  # N, forward and to the left; s
 

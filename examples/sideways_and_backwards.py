@@ -6,8 +6,7 @@ python examples/sideways_and_backwards.py --out sideways_and_backwards.png
 import argparse
 
 import preview_walk as pw
-from preview_walk.controller.robot_limits import gait_limits
-from preview_walk.types import FEET
+from preview_walk import FEET, gait_limits
 
 
 def main() -> None:

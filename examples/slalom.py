@@ -9,8 +9,7 @@ from math import atan2, cos, hypot, pi, sin
 import numpy as np
 
 import preview_walk as pw
-from preview_walk.analysis.plots import top_view
-from preview_walk.geometry.poses import midfeet
+from preview_walk import midfeet, top_view
 
 SPACING, SWING, POLES = 2.0, 0.5, 4  # m between poles, m to their sides, number of poles
 SPEED, AHEAD = 0.35, 0.7  # m/s, and the distance (m) at which the steering looks

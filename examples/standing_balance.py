@@ -15,11 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import preview_walk as pw
-from preview_walk.geometry.quintic import Quintic
-from preview_walk.simulation.world import World
-from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.whole_body import WholeBodyController
-from preview_walk.types import Array
+from preview_walk import Array, Quintic, TrackingGains, WholeBodyController, World
 
 TICK, FRICTION, RATE = 0.002, 0.8, 6.0  # s; -; 1/s, at which CoM errors decay
 
@@ -55,8 +51,8 @@ def main() -> None:
     options = parser.parse_args()
 
     robot = pw.load_robot(options.robot)
-    world = World(robot, robot.mj, 1000, FRICTION)
-    world.place(robot.posture)
+    world = World(robot, friction=FRICTION)
+    world.place(robot.posture, 0.0)
     body = WholeBodyController(robot, TrackingGains(), FRICTION)
     home = np.array((0.0, 0.0, robot.com_height))
     right = body.foot_tasks["right"]
@@ -78,7 +74,7 @@ def main() -> None:
             right.pose[:3, 3] = ground + np.array((0.0, 0.0, goal[3]))
             right.velocity[2], right.acceleration[2] = speed[3], pull[3]
             standing = ("left",) if lift or before[3] else ("left", "right")
-            torques = body.torques({foot: 2.0 * robot.mass * 9.81 for foot in standing})
+            torques = body.torques({foot: 2.0 * robot.mass * robot.gravity for foot in standing})
             felt = [world.wrench[foot][2] for foot in ("left", "right")]
             load = np.abs(torques / np.maximum(robot.effort, 1e-9)).max()
             sole = dynamics.soles["right"].position

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
+from preview_walk import gait_limits
 from preview_walk.analysis.top_view import draw_top_view
-from preview_walk.controller.robot_limits import gait_limits
 
 
 def main() -> None:

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk.viewer.video import FPS, frames
+from preview_walk import frames
+from preview_walk.viewer.video import FPS
 
 COUNT = 6
 

@@ -75,14 +75,14 @@ for axes, k, lab_com in ((zmp_x, 0, com_x), (zmp_y, 1, com_y)):
     axes.plot(t, planned_zmp[0, k] + lab_com, "k:", label="CoM of PreviewController")
     axes.set(title=f"ZMP tracking, {'xy'[k]}", xlabel="time (s)", ylabel=f"{'xy'[k]} (m)")
 for foot, colour in COLOURS.items():
-    arcs.plot(*history[f"{foot}_foot"][:, [0, 2]].T, color=colour, label=f"{foot} measured")
-    arcs.plot(*history[f"{foot}_foot_ref"][:, [0, 2]].T, "k--", linewidth=0.8)
+    arcs.plot(*history[f"{foot}_foot"][:, [0, 2], 3].T, color=colour, label=f"{foot} measured")
+    arcs.plot(*history[f"{foot}_foot_ref"][:, [0, 2], 3].T, "k--", linewidth=0.8)
 arcs.axhline(0.02, color="grey", linestyle=":", label="clearance")
 arcs.set(title="Soles from the side (planned: dashed)", xlabel="x (m)", ylabel="z (m)")
 arc.plot(swing_pos[:, 0], swing_pos[:, 2], color="tab:purple", label="SwingLegTrajectory(0.08)")
 arc.set(title="One swing", xlabel="x (m)", ylabel="z (m)")
 
-left, right = (history[f"{foot}_force"] > 20.0 for foot in COLOURS)
+left, right = (history[f"{foot}_force"][:, 2] > 20.0 for foot in COLOURS)
 felt = np.select([left & right, left, right], [0.0, 1.0, 2.0], np.nan)
 asked = [PHASES.index(planner.get_support_phase(s, footsteps)[0]) for s in time]
 phases.step(time, felt, color="tab:red", where="post", label="felt by the soles")
@@ -96,7 +96,7 @@ for axes in rest.axes:
 figure.savefig(out, dpi=120)
 
 # --- Its rubric, in numbers -----------------------------------------------------------------------
-soles = [history[f"{step.foot}_foot"] for step in steps]
+soles = [history[f"{step.foot}_foot"][:, :3, 3] for step in steps]
 landing = [np.searchsorted(time, step.land) for step in steps]
 middle = [np.searchsorted(time, 0.5 * (step.lift + step.land)) for step in steps]
 missed = [np.linalg.norm(s[i + 10] - p.pos) for s, i, p in zip(soles, landing, steps, strict=True)]

@@ -2,20 +2,43 @@
 
 __version__: str
 
-from .analysis.plots import plot as plot
-from .analysis.plots import plot_all as plot_all
-from .analysis.plots import save_plot as save_plot
-from .controller.robot_limits import command_limits as command_limits
-from .controller.robot_limits import gait_limits as gait_limits
+# Preview control, for any linear plant.
+from .preview.gains import preview_gains as preview_gains
+from .preview.design import PreviewDesign as PreviewDesign
+from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
+from .preview.response import Tracking as Tracking
+from .preview.response import preview_effect as preview_effect
+from .preview.response import track as track
+from .preview.servo import PreviewServo as PreviewServo
+from .preview.limits import Limits as Limits
+from .preview.observer import kalman_gain as kalman_gain
+from .preview.observer import luenberger_gain as luenberger_gain
+from .preview.systems import closed_loop_system as closed_loop_system
+from .preview.systems import preview_filter as preview_filter
+from .preview.systems import servo_system as servo_system
+from .preview.mpc import PredictiveServo as PredictiveServo
+from .preview.compare import Comparison as Comparison
+from .preview.compare import compare as compare
+from .preview.cart_table import ComState as ComState
+from .preview.cart_table import ComTrajectory as ComTrajectory
+from .preview.cart_table import cart_table as cart_table
+from .preview.controller import PreviewController as PreviewController
+from .preview.zmp_mpc import zmp_mpc as zmp_mpc
 
-# Errors.
-from .errors import InvalidInput as InvalidInput
-from .errors import PreviewWalkError as PreviewWalkError
-from .errors import RobotError as RobotError
-from .files import OutputError as OutputError
+# Poses, polygons and polynomials.
+from .geometry.poses import midfeet as midfeet
+from .geometry.poses import pose_at as pose_at
+from .geometry.support import Sole as Sole
+from .geometry.support import support_margin as support_margin
+from .geometry.support import support_polygon as support_polygon
+from .geometry.quintic import Quintic as Quintic
 
 # Footsteps: values, plans, planners, what legs can do.
 from .footsteps.footstep import Footstep as Footstep
+from .footsteps.plan import FootstepPlan as FootstepPlan
+from .footsteps.reading import as_plan as as_plan
+from .footsteps.planner import FootstepPlanner as FootstepPlanner
+from .footsteps.stride import Stride as Stride
 from .footsteps.gaits import arc as arc
 from .footsteps.gaits import on_the_spot as on_the_spot
 from .footsteps.gaits import sideways as sideways
@@ -23,69 +46,89 @@ from .footsteps.gaits import straight as straight
 from .footsteps.gaits import turn_in_place as turn_in_place
 from .footsteps.goals import from_list as from_list
 from .footsteps.goals import to_pose as to_pose
-from .footsteps.limits import GaitLimits as GaitLimits
-from .footsteps.plan import FootstepPlan as FootstepPlan
-from .footsteps.planner import FootstepPlanner as FootstepPlanner
-from .footsteps.stride import Stride as Stride
 from .footsteps.velocity import follow_velocity as follow_velocity
+from .footsteps.velocity import saturated as saturated
+from .footsteps.limits import GaitLimits as GaitLimits
 
 # The walking pattern: references as functions of a plan and time.
-from .geometry.support import Sole as Sole
+from .pattern.zmp_reference import zmp_reference as zmp_reference
+from .pattern.swing import Swing as Swing
+from .pattern.check import check_plan as check_plan
+from .pattern.check import require_walkable as require_walkable
+
+# The stabilizer: pure functions from measured state and reference to a decision.
+from .stabilizer.com_feedback import com_feedback as com_feedback
+from .stabilizer.disturbance import observe as observe
+from .stabilizer.recovery import recover as recover
+from .stabilizer.step_adaptation import adapt_step as adapt_step
+from .stabilizer.step_limits import StepLimits as StepLimits
+from .stabilizer.step_limits import step_limits as step_limits
+
+# The largest push a pendulum can survive.
+from .capturability.bound import Answer as Answer
+from .capturability.bound import Direction as Direction
+from .capturability.bound import PushGait as PushGait
+from .capturability.bound import largest_impulse as largest_impulse
+
+# Robots.
+from .robots.robot import Robot as Robot
+from .robots.load import load_robot as load_robot
+from .robots.listing import list_robots as list_robots
+from .robots.reading.description import catalogue as catalogue
+from .robots.inspection import inspect_robot as inspect_robot
+from .robots.standing import at_com_height as at_com_height
+from .robots.standing import standing_configuration as standing_configuration
+from .robots.state import to_mujoco as to_mujoco
+from .robots.state import to_pinocchio as to_pinocchio
+
+# Tracking and control: measured state and plan in, torques out.
+from .tracking.dynamics import Dynamics as Dynamics
+from .tracking.gains import TrackingGains as TrackingGains
+from .tracking.tasks import Task as Task
+from .tracking.whole_body import WholeBodyController as WholeBodyController
+from .tracking.qp.problem import TickProblem as TickProblem
+from .controller.robot_limits import command_limits as command_limits
+from .controller.robot_limits import gait_limits as gait_limits
+from .controller.walker import Walker as Walker
+
+# Walks.
+from .whole_walks import simulate as simulate
+from .whole_walks import simulate_commands as simulate_commands
+from .simulation.walk import Walk as Walk
+from .simulation.pushes import Push as Push
+from .simulation.pushes import random_pushes as random_pushes
+from .simulation.plant import Plant as Plant
+from .simulation.world import World as World
+from .simulation.scene import Scene as Scene
+from .terrain.ground import FlatGround as FlatGround
+from .terrain.ground import Ground as Ground
+
+# Records, figures, plots, films.
+from .record.record import Record as Record
+from .record.run_facts import RunFacts as RunFacts
+from .record.plan_log import PlanLog as PlanLog
+from .record.plan_log import PlanRevision as PlanRevision
+from .record.summary import Summary as Summary
+from .analysis.plots import plot as plot
+from .analysis.plots import plot_all as plot_all
+from .analysis.plots import save_plot as save_plot
+from .analysis.plots import top_view as top_view
+from .viewer.video import frames as frames
+from .viewer.video import render_video as render_video
+from .viewer.window import run_in_viewer as run_in_viewer
 
 # The walking lab's classes.
 from .lab.swing import SwingLegTrajectory as SwingLegTrajectory
 from .lab.walking_controller import WalkingController as WalkingController
 from .lab.zmp import ZMPTrajectoryGenerator as ZMPTrajectoryGenerator
+
+# Types and errors.
+from .types import Array as Array
+from .types import FEET as FEET
+from .types import Foot as Foot
+from .types import other as other
+from .errors import InvalidInput as InvalidInput
+from .errors import PreviewWalkError as PreviewWalkError
+from .errors import RobotError as RobotError
+from .files import OutputError as OutputError
 from .offscreen import RenderError as RenderError
-from .pattern.check import check_plan as check_plan
-from .pattern.check import require_walkable as require_walkable
-from .pattern.swing import Swing as Swing
-from .pattern.zmp_reference import zmp_reference as zmp_reference
-
-# Preview control, for any linear plant.
-from .preview.cart_table import ComState as ComState
-from .preview.cart_table import ComTrajectory as ComTrajectory
-from .preview.cart_table import cart_table as cart_table
-from .preview.compare import Comparison as Comparison
-from .preview.compare import compare as compare
-from .preview.controller import PreviewController as PreviewController
-from .preview.design import PreviewDesign as PreviewDesign
-from .preview.gains import preview_gains as preview_gains
-from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
-from .preview.limits import Limits as Limits
-from .preview.mpc import PredictiveServo as PredictiveServo
-from .preview.observer import kalman_gain as kalman_gain
-from .preview.observer import luenberger_gain as luenberger_gain
-from .preview.response import Tracking as Tracking
-from .preview.response import preview_effect as preview_effect
-from .preview.response import track as track
-from .preview.servo import PreviewServo as PreviewServo
-from .preview.systems import closed_loop_system as closed_loop_system
-from .preview.systems import preview_filter as preview_filter
-from .preview.systems import servo_system as servo_system
-from .preview.zmp_mpc import zmp_mpc as zmp_mpc
-
-# Records, figures, plots, films.
-from .record.record import Record as Record
-from .record.run_facts import RunFacts as RunFacts
-from .record.summary import Summary as Summary
-from .robots.inspection import inspect_robot as inspect_robot
-from .robots.listing import list_robots as list_robots
-from .robots.load import load_robot as load_robot
-
-# Robots.
-from .robots.robot import Robot as Robot
-from .simulation.pushes import Push as Push
-from .simulation.pushes import random_pushes as random_pushes
-from .simulation.walk import Walk as Walk
-
-# Tracking: tasks and contacts in, torques out.
-from .tracking.dynamics import Dynamics as Dynamics
-from .tracking.gains import TrackingGains as TrackingGains
-from .tracking.tasks import Task as Task
-from .tracking.whole_body import WholeBodyController as WholeBodyController
-from .viewer.video import render_video as render_video
-
-# Walks.
-from .whole_walks import simulate as simulate
-from .whole_walks import simulate_commands as simulate_commands
