@@ -58,9 +58,8 @@ class Footstep:
                 f"a {self.type} footstep needs times with {allowed}, got {lift} s, {land} s.",
                 argument="land",
             )
-        for name, time in (("lift", lift), ("land", land)):
-            if time is not getattr(self, name):
-                object.__setattr__(self, name, time)
+        object.__setattr__(self, "lift", lift)
+        object.__setattr__(self, "land", land)
 
     @property
     def pos(self) -> Array:
