@@ -58,9 +58,8 @@ class Footstep:
                 f"a {self.type} footstep needs times with {allowed}, got {lift} s, {land} s.",
                 argument="land",
             )
-        for name, time in (("lift", lift), ("land", land)):
-            if time is not getattr(self, name):
-                object.__setattr__(self, name, time)
+        object.__setattr__(self, "lift", lift)
+        object.__setattr__(self, "land", land)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Take a copied state; NumPy's copies forget that they are read-only."""

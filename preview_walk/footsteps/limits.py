@@ -25,6 +25,9 @@ from preview_walk.geometry.poses import (
 from preview_walk.geometry.support import Sole, sole_gap
 from preview_walk.types import Array, Foot
 
+_SIDE = {"left": 1.0, "right": -1.0}
+"""The direction along y in which a foot stands beside the other one."""
+
 _TRIES = 60
 """A step is widened at most this many times, by 1 cm each, until it is clear of the other sole."""
 
@@ -255,4 +258,7 @@ class GaitLimits:
 
 def _side(foot: Foot) -> float:
     """Return 1 for the left foot, -1 for the right one."""
-    return 1.0 if foot_of(foot, "foot") == "left" else -1.0
+    try:
+        return _SIDE[foot]
+    except (KeyError, TypeError):
+        return _SIDE[foot_of(foot, "foot")]

@@ -1,4 +1,4 @@
-"""What may follow a footstep in a plan: later in time, of the other foot but after a stand."""
+"""What may follow a footstep in a plan: later in time, by the other foot or after a stand."""
 
 from __future__ import annotations
 

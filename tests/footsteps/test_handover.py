@@ -90,6 +90,13 @@ def test_a_step_that_is_kept_but_from_another_sole_is_judged():
     )
 
 
+def test_steps_that_have_landed_are_history():
+    first = replace(FIRST, pose=FIRST.pose @ pose_at(0.6, 0.0))
+    plan = FootstepPlan([*PLAN[:2], first, *PLAN.steps[1:]])
+    assert told(plan, PLAN.steps[2].land) is None  # both feet have stepped since
+    assert "step 1 lands" in told(plan, 0.0)[0]
+
+
 def test_a_landing_too_soon():
     t = SECOND.lift + 0.05
     sentence, argument = told(PLAN.retarget(t, SECOND.pose, SECOND.lift + 0.2), t)
@@ -128,6 +135,10 @@ def test_a_stance_elsewhere_or_turned():
         (pose_at(0.0, -0.061), False),
         (pose_at(0.0, 0.0, 0.19), True),
         (pose_at(0.0, 0.0, -0.21), False),
+        (pose_at(0.0, 0.0, 0.21), False),
+        # Turned soles: the plan's centre lies on the sole that stands, seen along that sole.
+        (np.linalg.inv(pose_at(0.095, 0.05, 0.19)), True),
+        (pose_at(0.095, 0.05, 0.19), False),
         (pose_at(0.0, 0.0, 0.0, 0.05), True),
     ],
 )

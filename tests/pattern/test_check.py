@@ -51,8 +51,32 @@ def test_a_step_out_of_reach():
     assert str(finding) == (
         "at 2.860 s step 2 lands 0.800 m ahead of the left sole, at most 0.652 m is allowed"
     )
+    assert finding.argument == "step_length"
     with raises(f"the plan cannot be walked: {finding}."):
         require_walkable(plan, LIMITS)
+
+
+@pytest.mark.parametrize(
+    ("plan", "argument"),
+    [
+        (PLANNER.walk([Stride(0.8), Stride()]), "step_length"),
+        (PLANNER.walk([Stride(0.2, time=0.2), Stride()]), "step_time"),
+        (PLANNER.walk([Stride(width=0.9), Stride()]), "step_width"),
+        (PLANNER.generate_footsteps(4, turn=0.6), "turn"),
+        (PLANNER.generate_footsteps(4, turn=-0.3), "turn"),
+    ],
+)
+def test_the_argument_of_a_planner_is_named(plan, argument):
+    assert check_plan(plan, LIMITS)[0].argument == argument
+    with pytest.raises(InvalidInput) as caught:
+        require_walkable(plan, LIMITS)
+    assert caught.value.argument == argument
+
+
+def test_the_reference_that_is_wrong_is_named():
+    away = ZMP + np.where(TIMES[:, None] > 3.0, 0.5, 0.0)
+    assert {f.argument for f in check_plan(PLAN, LIMITS, TIMES, away)} == {"zmp"}
+    assert {f.argument for f in check_plan(PLAN, LIMITS, TIMES, com=away)} == {"com"}
 
 
 def test_a_step_too_quick():
