@@ -7,6 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+import preview_walk as pw
 from preview_walk.robots.building.agreement import disagreement
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.load import load_robot
@@ -196,3 +197,13 @@ def test_limits_that_forbid_standing_are_named():
     knee = robot.joint_names.index("LLEG_KNEE")
     assert np.isinf(robot.q_lower[knee])
     assert not robot.mj.jnt_limited[1 + knee]
+
+
+@pytest.mark.parametrize(("name", "bound"), [("icub27", 5e-3), ("jvrc1", 1e-4)])
+def test_robots_of_the_extra_walk(name, bound):
+    """The others do in `simulation`. Measured CoM errors: 3.3 mm of height, and 0.06 mm."""
+    robot = robot_named(name)
+    planner = pw.FootstepPlanner(0.25 * robot.leg_length, robot.step_width, 0.9)
+    summary = pw.simulate(robot, planner.generate_footsteps(4)).summary()
+    assert not summary.fell
+    assert max(summary.com_error_rms) < bound
