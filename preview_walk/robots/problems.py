@@ -27,7 +27,12 @@ def problems_of(robot: Robot) -> tuple[str, ...]:
 
 def _sole_problems(robot: Robot) -> tuple[str, ...]:
     """Return that the soles are too small to walk on, in words."""
-    length = 2.0 * robot.sole.half_length
+    length, width = 2.0 * robot.sole.half_length, 2.0 * robot.sole.half_width
+    if length < width:
+        return (
+            f"the soles are {length:.3f} m long but {width:.3f} m wide: the wrong shapes may have "
+            "been found",
+        )
     if length >= SMALL_SOLE * robot.leg_length:
         return ()
     return (

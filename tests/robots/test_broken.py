@@ -44,7 +44,7 @@ def describe(folder: Path, facts: str) -> Path:
 def test_unknown_name():
     with says(
         "unknown robot 'atlas'; expected one of alexander, g1, g1_hands, human, humanoid-walker, "
-        "icub, romeo, simple_humanoid, talos, or the path of a .urdf or .xml file"
+        "icub, icub27, jvrc1, romeo, simple_humanoid, talos, or the path of a .urdf or .xml file"
     ):
         load_robot("atlas")
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 from difflib import get_close_matches
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from importlib.resources import files
 from pathlib import Path
 
 from preview_walk.errors import RobotError
 from preview_walk.robots.reading.content import is_there, shown
-from preview_walk.robots.reading.facts import SHIPPED, Description, Facts
+from preview_walk.robots.reading.facts import Description, Facts, in_package
+
+DEFAULT_PACKAGE = "example-robot-data"
+"""The package of robots that is always installed."""
 
 
 def models_folder() -> Path:
@@ -19,8 +23,23 @@ def models_folder() -> Path:
 
 
 def catalogue() -> tuple[str, ...]:
-    """Return the names of the robots that `load_robot` knows, sorted."""
-    return tuple(sorted(path.stem for path in models_folder().glob("*.json")))
+    """Return the names of the robots that `load_robot` knows, sorted.
+
+    Those of the extra "robots" are among them where their packages are installed.
+    """
+    return tuple(sorted(path.stem for path in models_folder().glob("*.json") if _installed(path)))
+
+
+def _installed(path: Path) -> bool:
+    """Return whether the package of robots that a description names, if any, is installed."""
+    packaged = in_package(str(json.loads(path.read_text(encoding="utf-8"))["model"]))
+    if packaged is None or packaged[0] == DEFAULT_PACKAGE:
+        return True
+    try:
+        distribution(packaged[0])
+    except PackageNotFoundError:
+        return False
+    return True
 
 
 def describe(name: str | Path) -> Description:
@@ -45,7 +64,7 @@ def describe(name: str | Path) -> Description:
 def _known(name: str) -> str:
     """Return the catalogue's name for what was typed, capitals or not."""
     known = catalogue()
-    if name.lower() in known:
+    if name.lower() in known or is_there(models_folder() / f"{name.lower()}.json"):
         return name.lower()
     near = get_close_matches(name.lower(), known, n=1, cutoff=0.75)
     meant = f"; did you mean '{near[0]}'?" if near else ";"
@@ -70,20 +89,36 @@ def read_description(path: Path) -> Description:
 
 
 def model_path(model: str) -> Path:
-    """Return the file that a description's `model` names."""
-    if model.startswith(SHIPPED):
-        return example_robot_data() / model.removeprefix(SHIPPED)
-    return Path(model)
+    """Return the file that a description's `model` names.
+
+    Raises:
+        RobotError: a package of robots that is not installed, or that lacks the file.
+    """
+    packaged = in_package(model)
+    if packaged is None:
+        return Path(model)
+    package, end = packaged
+    if package == DEFAULT_PACKAGE:
+        return example_robot_data() / end
+    for file in _package(package).files or ():
+        if f"/{file.as_posix()}".endswith(f"/{end}"):
+            return Path(str(file.locate())).resolve()
+    raise RobotError(f"the package '{package}' has no file that ends in '{end}'")
+
+
+def _package(name: str) -> Distribution:
+    """Return an installed package of robots."""
+    try:
+        return distribution(name)
+    except (PackageNotFoundError, ValueError) as missing:
+        raise RobotError(
+            f"the package '{name}' is not installed; expected it for a robot of the catalogue: "
+            "pip install 'preview-walk[robots]'"
+        ) from missing
 
 
 def example_robot_data() -> Path:
     """Return the folder of robots that the package example-robot-data ships (data only)."""
-    from importlib.metadata import PackageNotFoundError, distribution
-
-    try:
-        package = distribution("example-robot-data")
-    except PackageNotFoundError as missing:
-        raise RobotError(
-            "example-robot-data is not installed; expected it for the robots of the catalogue"
-        ) from missing
-    return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))
+    return Path(
+        str(_package(DEFAULT_PACKAGE).locate_file("cmeel.prefix/share/example-robot-data/robots"))
+    )

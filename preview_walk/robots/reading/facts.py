@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,8 +14,14 @@ from preview_walk.geometry.support import Sole
 from preview_walk.robots.bounds import LARGEST, LARGEST_GAIN, SMALLEST_EFFORT, SMALLEST_SOLE
 from preview_walk.types import FEET, Foot
 
-SHIPPED = "example-robot-data:"
-"""Start of a description's `model` that names a file of the package example-robot-data."""
+_PACKAGED = re.compile(r"([A-Za-z0-9][\w.-]+):(.+)")
+
+
+def in_package(model: str) -> tuple[str, str] | None:
+    """Return package and end of path of a model called "PACKAGE:PATH", None for a plain path."""
+    named = _PACKAGED.fullmatch(model)
+    return None if named is None else (named.group(1), named.group(2))
+
 
 _FACTS = ("title", "model", "torso", "soles", "posture", "limits")
 
@@ -56,7 +63,7 @@ class Description:
     Attributes:
         name: short name.
         title: name to be read.
-        model: a path, or "example-robot-data:PATH" for a file that this package ships.
+        model: a path, or "PACKAGE:PATH" for a file that a package of robots ships.
         torso: the body that is kept upright; None to find it.
         soles: where the soles are; empty to find them.
         posture: joint angles (rad) of the walking posture by name, the legs' left to inverse
@@ -86,7 +93,7 @@ class Facts:
         if "model" not in self.facts:
             raise RobotError(f"the description '{self.file}' lacks 'model', the path of its model")
         model = self._text("model", self.facts["model"])
-        if not model.startswith(SHIPPED):
+        if in_package(model) is None:
             model = str((path.parent / model).resolve())
         return Description(
             path.stem,

@@ -97,7 +97,8 @@ def _colour(visual: Any) -> tuple[float, float, float, float] | None:
         red, green, blue, alpha = (float(value) / 255.0 for value in rgba)
     except Exception:  # textures and exotic materials have no main colour
         return None
-    return red, green, blue, alpha
+    # Invisible is an exporter's slip: COLLADA's transparency is written both ways round.
+    return (red, green, blue, alpha) if alpha > 0.0 else None
 
 
 def add_piece(

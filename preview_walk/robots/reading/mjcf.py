@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import mujoco
@@ -39,7 +40,9 @@ def compile_spec(spec: mujoco.MjSpec, source: str) -> tuple[mujoco.MjModel, tupl
     light: list[str] = []
     while True:
         try:
-            model = spec.compile()
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of numbers that are checked and told of later
+                model = spec.compile()
         except (ValueError, RuntimeError) as error:
             named = re.search(
                 r"moving bodies must be larger.*Element name '([^']+)'", str(error), re.S
