@@ -50,7 +50,7 @@ def to_pose(
         InvalidInput: the goal is no place, or the limits do not let it be reached.
     """
     target, bounds = as_heading(goal, "goal"), limits_for(planner, limits)
-    layout = Layout(planner, start)
+    layout = Layout(planner.begin(start))
     soles = {foot: heading_of(layout.soles[foot]) for foot in FEET}
     z = float(layout.soles["left"][2, 3])
     size = min(abs(planner.step_length), bounds.forward)
@@ -104,7 +104,7 @@ def from_list(
     """
     bounds, places = limits_for(planner, limits), _pairs(footholds)
     times = _times(step_times, [planner.step_time] * len(places))
-    layout = Layout(planner, start)
+    layout = Layout(planner.begin(start))
     ground = float(layout.soles["left"][2, 3])
     for (foot, place), time in zip(places, times, strict=True):
         try:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.types import FEET, Array, Foot, other
-
-if TYPE_CHECKING:
-    from preview_walk.footsteps.planner import FootstepPlanner
 
 STAND_TIME = 1.6
 """Time (s) of standing before the first lift: as long as the preview, because a CoM at rest cannot
@@ -30,9 +26,9 @@ class Layout:
         steps: the steps so far.
     """
 
-    def __init__(self, planner: FootstepPlanner, start: Start) -> None:
-        """Begin where the plan ends, or at a stance a step width of the planner wide."""
-        self._before = start if isinstance(start, FootstepPlan) else planner.stand(start)
+    def __init__(self, before: FootstepPlan) -> None:
+        """Begin where the plan `before` ends."""
+        self._before = before
         self._last = self._before[-1].land
         self.soles = {foot: self._before.sole(foot, self._last) for foot in FEET}
         self._lift = self._last + max(STAND_TIME, 2.0 * self._before.weight_shift)

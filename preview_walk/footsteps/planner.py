@@ -142,7 +142,7 @@ class FootstepPlanner:
         foot = foot_of(start_foot, "start_foot")
         if limits is not None:
             instance_of(limits, GaitLimits, "limits")
-        layout = Layout(self, start)
+        layout = Layout(self.begin(start))
         z = 0.5 * float(layout.soles["left"][2, 3] + layout.soles["right"][2, 3])
         frame = midfeet(layout.soles["left"], layout.soles["right"])
         for stride in items_of(strides, Stride, "strides"):
@@ -160,6 +160,10 @@ class FootstepPlanner:
             layout.add(foot, pose, time * (1.0 - ratio), time * ratio)
             foot = other(foot)
         return layout.plan()
+
+    def begin(self, start: Start) -> FootstepPlan:
+        """Return the plan that a walk goes on from: one that is given, or a stand at a place."""
+        return start if isinstance(start, FootstepPlan) else self.stand(start)
 
     def stand(self, start: Sequence[float] = (0.0, 0.0)) -> FootstepPlan:
         """Return the plan without steps, the soles a step width apart.

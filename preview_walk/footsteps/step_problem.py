@@ -3,17 +3,54 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from preview_walk.arguments import angle
 from preview_walk.geometry.poses import Heading
 from preview_walk.types import Foot, other
 
-if TYPE_CHECKING:
-    from preview_walk.footsteps.limits import GaitLimits
-
 ROUNDING = 1e-6
 """A bound may be passed by this much (m, rad): rounding."""
+
+
+class StepBounds(Protocol):
+    """The bounds that a landing is held to; `GaitLimits` says what each means."""
+
+    @property
+    def forward(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def backward(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def min_width(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def max_width(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def turn_out(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def turn_in(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def rise(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def clearance(self) -> float:
+        """See `GaitLimits`."""
+
+    @property
+    def min_swing_time(self) -> float:
+        """See `GaitLimits`."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +72,7 @@ class StepProblem:
 
 
 def landing_problem(
-    limits: GaitLimits, foot: Foot, place: Heading, rise: float, gap: float
+    limits: StepBounds, foot: Foot, place: Heading, rise: float, gap: float
 ) -> StepProblem | None:
     """Return what is wrong with a landing beside the standing sole, or None.
 
@@ -74,7 +111,7 @@ def landing_problem(
     return None
 
 
-def haste_problem(limits: GaitLimits, air: float) -> StepProblem | None:
+def haste_problem(limits: StepBounds, air: float) -> StepProblem | None:
     """Return what is wrong with how long a foot is in the air, or None.
 
     Args:
