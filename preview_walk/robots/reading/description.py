@@ -63,9 +63,9 @@ def describe(name: str | Path) -> Description:
 
 def _known(name: str) -> str:
     """Return the catalogue's name for what was typed, capitals or not."""
-    known = catalogue()
-    if name.lower() in known or is_there(models_folder() / f"{name.lower()}.json"):
+    if is_there(models_folder() / f"{name.lower()}.json"):
         return name.lower()
+    known = catalogue()
     near = get_close_matches(name.lower(), known, n=1, cutoff=0.75)
     meant = f"; did you mean '{near[0]}'?" if near else ";"
     raise RobotError(
