@@ -17,7 +17,7 @@ from preview_walk.footsteps.reading import as_plan
 from preview_walk.footsteps.stride import Stride
 from preview_walk.geometry.poses import pose_at
 from preview_walk.lab.zmp import ZMPTrajectoryGenerator
-from preview_walk.record.plan_log import PlanWriter
+from preview_walk.record.plan_writer import PlanWriter
 
 KEYS = ("foot", "pos", "time", "type")
 PLANNER = FootstepPlanner(0.2, 0.2, 0.7)
