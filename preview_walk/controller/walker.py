@@ -8,7 +8,8 @@ import numpy as np
 
 from preview_walk.controller.feet import Feet
 from preview_walk.controller.momentum_model import momentum_model
-from preview_walk.controller.robot_limits import leg_geometry
+from preview_walk.controller.robot_limits import gait_limits, leg_geometry
+from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
@@ -109,6 +110,23 @@ class Walker:
     def follow(self, plan: FootstepPlan) -> None:
         """Walk by another plan from now on: the one place where plans are replaced."""
         self.pattern.follow(plan)
+
+    def change(self, plan: FootstepPlan, t: float) -> None:
+        """Walk by a plan that somebody else made, if it fits to where the feet are.
+
+        Args:
+            plan: the walk from now on.
+            t: now, s.
+
+        Raises:
+            InvalidInput: it does not begin where the feet are, or is out of the legs' reach; the
+                old plan goes on.
+        """
+        soles = {foot: self.body.dynamics.soles[foot].pose for foot in FEET}
+        refused = refusal(plan, self.plan, t, gait_limits(self.robot), soles)
+        if refused is not None:
+            raise refused
+        self.follow(plan)
 
     def tick(self, t: float, q: Array, v: Array, normal_force: Mapping[Foot, float]) -> Array:
         """Return the joint torques (n,) in N·m for the state measured at time t.

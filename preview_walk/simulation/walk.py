@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from preview_walk.controller.robot_limits import command_limits, gait_limits
+from preview_walk.controller.robot_limits import command_limits
 from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
-from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.record.record import Record
@@ -121,8 +120,7 @@ class Walk:
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = on_tick
         self._requests = Requests()
-        self._start, self._tick = plan.start, 0
-        self._wall = 0.0
+        self._start, self._tick, self._wall = plan.start, 0, 0.0
         self._fall: tuple[float, str] | None = None
         self._interrupted = False
         self._recorder = WalkRecorder(
@@ -168,15 +166,7 @@ class Walk:
     @plan.setter
     def plan(self, plan: PlanLike) -> None:
         new = as_plan(plan)
-
-        def follow() -> None:
-            soles = {foot: self.walker.body.dynamics.soles[foot].pose for foot in FEET}
-            refused = refusal(new, self.plan, self.time, gait_limits(self.robot), soles)
-            if refused is not None:
-                raise refused
-            self.walker.follow(new)
-
-        self._take(follow)
+        self._take(lambda: self.walker.change(new, self.time))
 
     @property
     def fallen(self) -> bool:

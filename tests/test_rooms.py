@@ -1,0 +1,86 @@
+"""The house has one direction: a room imports those below it, and no two files import each other."""
+
+from __future__ import annotations
+
+import ast
+import re
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+import preview_walk
+
+PACKAGE = Path(preview_walk.__file__).parent
+ARCHITECTURE = PACKAGE.parent / "docs" / "architecture.md"
+MAX_LINES = 300
+
+SERVICES = {"arguments", "constants", "errors", "files", "offscreen", "threads", "types"}
+"""Files that serve all rooms; they import each other alone."""
+
+FACES = {"preview_walk", "__main__"}
+"""What stands above all rooms."""
+
+
+def imports(path: Path) -> set[str]:
+    """Return the modules of the package that a file imports, wherever in it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("preview_walk."):
+            names.add(str(node.module))
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names if alias.name.startswith("preview_walk.")}
+    return names & set(MODULES)
+
+
+def module_of(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def room_of(module: str) -> str:
+    return module.split(".")[1] if "." in module else module
+
+
+MODULES = {module_of(path): path for path in PACKAGE.rglob("*.py")}
+GRAPH = {module: imports(path) - {module} for module, path in MODULES.items()}
+
+
+def order() -> list[str]:
+    """Return the rooms from the lowest to the highest, as the architecture's table has them."""
+    return re.findall(r"^\| `(\w+)(?:/|\.py)` \|", ARCHITECTURE.read_text(encoding="utf-8"), re.M)
+
+
+def test_the_architecture_names_every_room() -> None:
+    assert {room_of(module) for module in MODULES} == {*order(), *SERVICES, *FACES}
+
+
+def test_every_arrow_points_down() -> None:
+    height = {room: level for level, room in enumerate(order(), 1)}
+    height |= dict.fromkeys(SERVICES, 0) | dict.fromkeys(FACES, len(height) + 1)
+    up = [
+        f"{module} -> {other}"
+        for module, others in GRAPH.items()
+        for other in others
+        if height[room_of(other)] > height[room_of(module)]
+    ]
+    assert up == []
+
+
+def test_no_two_files_import_each_other() -> None:
+    try:
+        TopologicalSorter(GRAPH).prepare()
+    except CycleError as circle:
+        pytest.fail(f"a circle of imports: {circle.args[1]}")
+
+
+def test_every_room_says_what_it_is_for() -> None:
+    for path in PACKAGE.rglob("__init__.py"):
+        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        assert len(text) > 60, path
+
+
+def test_no_file_is_longer_than_can_be_read_at_a_sitting() -> None:
+    lines = {module: len(path.read_text().splitlines()) for module, path in MODULES.items()}
+    assert {module: n for module, n in lines.items() if n > MAX_LINES} == {}
