@@ -1,4 +1,4 @@
-"""The house has one direction: a room imports those below it, and no two files import each other."""
+"""The house has one direction: a room imports those below it; no two files import each other."""
 
 from __future__ import annotations
 
