@@ -30,6 +30,15 @@ def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     Raises:
         RobotError: an unknown name, or a model that cannot walk; says what is in the way.
     """
+    try:
+        return _load(model)
+    except RobotError as error:
+        error.argument = error.argument or "model"
+        raise
+
+
+def _load(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
+    """Return a robot; whatever is wrong is wrong with the model."""
     if isinstance(model, mujoco.MjSpec):
         model, notes = compile_spec(model.copy(), "the spec")
         return build_robot(_in_hand(model), replace(read_source(model), notes=notes))

@@ -69,6 +69,13 @@ def test_not_a_robot_at_all():
         load_robot(3)
 
 
+@pytest.mark.parametrize("model", ["atlas", "nowhere.xml", 3, mujoco.MjSpec()])
+def test_every_refusal_names_its_argument(model):
+    with pytest.raises(RobotError) as refused:
+        load_robot(model)
+    assert refused.value.argument == "model"
+
+
 def test_unknown_mesh(tmp_path):
     path = tmp_path / "my.xml"
     text = WALKER.replace("<material", '<mesh name="m" file="gone.stl"/><material', 1)
