@@ -1,8 +1,8 @@
 """How much angular momentum a step carries: what the cart-table leaves out, to first order.
 
 The cart-table assumes no angular momentum about the CoM. A swinging leg has some, and its rate
-moves the ZMP: for a 0.5 m swing of TALOS by 45 mm. In the walking posture, with the other foot
-standing and the trunk upright, it is linear in the velocities of the swing foot and the CoM:
+moves the ZMP: for a 0.5 m swing of TALOS in 0.7 s by 55 mm. In the walking posture, with the other
+foot standing and the trunk upright, it is linear in the velocities of the swing foot and the CoM:
 
     L = foot @ v_foot + com @ v_com
 

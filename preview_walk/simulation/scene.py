@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import RobotError
+from preview_walk.robots.finding.constraints import holding_constraints
 from preview_walk.robots.finding.tree import Tree
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
@@ -53,8 +54,8 @@ class Scene:
             pushes: forces on bodies of the scene, in the walk's time.
 
         Raises:
-            RobotError: the model has no floor, another gravity, or actuators or a base that cannot
-                be driven so.
+            RobotError: the model has no floor, another gravity, a constraint that holds the robot,
+                or actuators or a base that cannot be driven so.
             InvalidInput: a push on an unknown body.
         """
         self.robot = robot
@@ -63,6 +64,9 @@ class Scene:
         root = int(model.body_jntadr[base])
         if root < 0 or int(model.jnt_type[root]) != _FREE:
             raise RobotError(f"the base '{tree.name(base)}' must have a free joint to walk with")
+        held = holding_constraints(tree, base)
+        if held:
+            raise RobotError(f"the scene holds the robot by {' and '.join(held)}; expected it free")
         if not np.allclose(model.opt.gravity, (0.0, 0.0, -GRAVITY)):
             raise RobotError(
                 f"gravity must be (0, 0, -{GRAVITY}) m/s^2, got {model.opt.gravity.tolist()}"

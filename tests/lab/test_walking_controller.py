@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Callable
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -17,6 +18,7 @@ from preview_walk.robots.reading.description import models_folder
 from preview_walk.types import Array
 
 XML = models_folder() / "humanoid-walker.xml"
+CASES = Path(__file__).parents[1] / "robots" / "cases"
 History = dict[str, Array]
 
 
@@ -350,3 +352,9 @@ def test_an_attribute_that_would_be_ignored_is_refused(spec: mujoco.MjSpec) -> N
             setattr(controller, name, 0.1)
     controller.com_height = 0.79
     assert controller.run_walking(0)["com"][-1, 2] == pytest.approx(0.79, abs=2e-3)
+
+
+def test_a_scene_that_holds_the_robot_is_told() -> None:
+    model = mujoco.MjModel.from_xml_path(str(CASES / "weld_active.xml"))
+    with pytest.raises(RobotError, match=r"^the scene holds the robot by the weld .* expected it"):
+        WalkingController(model, mujoco.MjData(model))
