@@ -34,3 +34,20 @@ def test_planning_alone_loads_no_engine_and_a_wrong_option_nothing_at_all() -> N
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n[]\n"
+
+
+def test_every_object_is_told_in_two_lines(talos: pw.Robot) -> None:
+    plan = pw.FootstepPlanner(0.2, talos.step_width, 0.8).generate_footsteps(2)
+    walk = pw.Walk(talos, plan).run(until=0.02)
+    record, walker = walk.record(), walk.walker
+    for thing in (
+        *(talos, plan, plan[2], walk, walk.limits, walk.plant, walker, walker.body),
+        *(walker.body.dynamics, walker.body.problem({"left": 900.0}), walker.gains),
+        *(walker.pattern.controller, walker.pattern.controller.design, pw.zmp_reference(plan)),
+        *(record, record.run, record.plans, record.plans[0], record.summary()),
+        *(pw.Push(1.0, 0.2, (1.0, 2.0, 3.0)), pw.FootstepPlanner(), pw.Stride()),
+    ):
+        text = repr(thing)
+        assert len(text) < 240, text
+        assert "\n" not in text
+        assert " object at 0x" not in text

@@ -102,6 +102,9 @@ class Walker:
         )
         self._planned_until = -np.inf
 
+    def __repr__(self) -> str:
+        return f"Walker({self.robot.name}, {self.plan!r})"
+
     @property
     def plan(self) -> FootstepPlan:
         """The footsteps walked by."""

@@ -66,6 +66,11 @@ class Footstep:
         vars(self).update(state)
         self.pose.setflags(write=False)
 
+    def __repr__(self) -> str:
+        x, y, z = self.pos.tolist()
+        way = f"{self.lift:.3f} s to {self.land:.3f} s"
+        return f"Footstep({self.foot} {self.type} at ({x:.3f}, {y:.3f}, {z:.3f}) m, {way})"
+
     @property
     def pos(self) -> Array:
         """Position (3,) of the sole centre in the world, m."""

@@ -108,6 +108,13 @@ class GaitLimits:
         for name in ("slow_double_support", "fast_double_support"):
             share_of(getattr(self, name), name, "the step time")
 
+    def __repr__(self) -> str:
+        return (
+            f"GaitLimits({self.forward:.3f} m forward, {self.backward:.3f} m backward, "
+            f"{self.min_width:.3f} to {self.max_width:.3f} m wide, "
+            f"{self.turn_out:.3f} rad out, {self.turn_in:.3f} rad in)"
+        )
+
     @classmethod
     def for_leg(cls, leg_length: float, step_width: float, sole: Sole | None = None) -> GaitLimits:
         """Return limits in proportion to the leg, for a robot nobody has tuned.

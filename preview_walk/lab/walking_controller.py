@@ -83,6 +83,9 @@ class WalkingController:
             )
         object.__setattr__(self, name, value)
 
+    def __repr__(self) -> str:
+        return f"WalkingController({self._robot.name}, {self.planner!r})"
+
     @property
     def robot(self) -> Robot:
         """What was found in the model."""

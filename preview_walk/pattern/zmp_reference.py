@@ -60,6 +60,10 @@ class ZMPReference:
         object.__setattr__(self, "_coefficients", c)
         object.__setattr__(self, "_origins", np.concatenate((self.times[:1], self.times)))
 
+    def __repr__(self) -> str:
+        span = f"{self.times[0]:.3f} s to {self.times[-1]:.3f} s"
+        return f"ZMPReference({len(self.times)} knots, {span})"
+
     def at(self, t: ArrayLike) -> Array:
         """Return the ZMP (m) at time t (s): (2,) for one time, (N, 2) for N times.
 

@@ -92,6 +92,9 @@ class Scene:
         self._since = 0.0  # the walk's time less the scene's own
         self._kinematics = robot.pin.createData()
 
+    def __repr__(self) -> str:
+        return f"Scene({self.robot.name}, {1.0 / self.timestep:g} Hz, friction {self.friction:g})"
+
     def __getstate__(self) -> dict[str, Any]:
         """Leave out Pinocchio's workspace, which the next `sense` fills."""
         return {name: value for name, value in vars(self).items() if name != "_kinematics"}

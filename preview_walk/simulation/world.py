@@ -87,6 +87,9 @@ class World:
         # Views of MuJoCo's own memory: they follow every step.
         self._soles = {foot: self.data.site(sole_name(foot)).xpos for foot in FEET}
 
+    def __repr__(self) -> str:
+        return f"World({self.robot.name}, {1.0 / self.timestep:g} Hz, friction {self.friction:g})"
+
     def __getstate__(self) -> dict[str, Any]:
         """Leave out the views, which belong to this state's memory."""
         return {name: value for name, value in vars(self).items() if name != "_soles"}

@@ -112,6 +112,9 @@ class Dynamics:
         self.torso = self.add_frame(robot.torso)
         self.update(self.q, self.v)
 
+    def __repr__(self) -> str:
+        return f"Dynamics({self.robot.name}, nv = {self.nv})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Compute the terms of the copy anew: they are views of Pinocchio's own memory."""
         return _dynamics_at, (self.robot, np.array(self.q), np.array(self.v), [*self._frames])

@@ -99,6 +99,9 @@ class WholeBodyController:
         self._problems: dict[tuple[Foot, ...], TickProblem] = {}
         self._contacts: tuple[Foot, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"WholeBodyController({self.robot.name}, {len(self.tasks)} tasks, posture, feet)"
+
     def __getstate__(self) -> dict[str, Any]:
         """Leave out the QPs, which are views into each other and made again when needed."""
         return {**vars(self), "_problems": {}}

@@ -129,6 +129,10 @@ class TickProblem:
         self.mass: Array = np.zeros((nv, nv))
         self.bias: Array = np.zeros(nv)
 
+    def __repr__(self) -> str:
+        standing = " and ".join(self.contacts) or "no foot"
+        return f"TickProblem({self.robot.name} on {standing}, {self.m} rows, {2 * self.n} limits)"
+
     def fill(
         self,
         dynamics: Dynamics,
