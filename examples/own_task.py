@@ -20,7 +20,7 @@ class CarryLevel:
     """Keep a link's orientation (critically damped, `frequency` in rad/s)."""
 
     rows = 3  # equations: one per axis of rotation
-    weight = 1.0  # against 10 for the CoM and the feet
+    weight = 1.0  # against 100 for the CoM and the feet, 2 for the torso
 
     def __init__(self, dynamics: Dynamics, link: str, frequency: float = 15.0) -> None:
         self.link = dynamics.frame(link)  # kept up to date by the controller
@@ -39,17 +39,21 @@ def tilt_of_the_cup(carried: bool) -> float:
     """Walk and return how far the right hand tilted at most, in degrees."""
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.5, step_width=robot.step_width, step_time=0.75)
-    walk = pw.Walk(robot, planner.generate_footsteps(10, ramp=4))
-    body = walk.walker.body
-    cup = CarryLevel(body.dynamics, "arm_right_7_link")
-    if carried:
-        body.add_task(cup)
-    up = cup.goal.T @ [0.0, 0.0, 1.0]
     worst = 0.0
-    while not walk.finished:
-        walk.tick()
+
+    def watch(walk: pw.Walk) -> None:
+        """Note the tilt at the end of a tick."""
+        nonlocal worst
         cosine = np.clip((cup.link.rotation @ up)[2], -1.0, 1.0)
         worst = max(worst, np.degrees(np.arccos(cosine)))
+
+    walk = pw.Walk(robot, planner.generate_footsteps(10, ramp=4), on_tick=watch)
+    body = walk.walker.body
+    cup = CarryLevel(body.dynamics, "arm_right_7_link")
+    up = cup.goal.T @ [0.0, 0.0, 1.0]
+    if carried:
+        body.add_task(cup)
+    walk.run()
     return worst
 
 

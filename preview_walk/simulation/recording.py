@@ -87,9 +87,14 @@ class WalkRecorder:
 def tick_row(
     t: float, plant: Plant, walker: Walker, torques: Array, spent: float
 ) -> dict[str, Any]:
-    """Return the record's fields of the tick at time t (s) that sent `torques` (n,) in N·m.
+    """Return the record's fields of one tick, by name.
 
-    `spent` is the wall time (s) of the whole tick.
+    Args:
+        t: time of the tick, s.
+        plant: as sensed at t.
+        walker: after its tick.
+        torques: (n,) that it sent, N·m.
+        spent: wall time of the whole tick, s.
     """
     body, dynamics, reference = walker.body, walker.body.dynamics, walker.reference
     assert body.solution is not None

@@ -27,9 +27,15 @@ UNLOAD = 0.03
 
 
 def land_at(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepPlan:
-    """Return the plan whose step in the air at t (s) lands at `pose` (4, 4) at `land` (s).
+    """Return the plan whose step in the air lands elsewhere, at another time.
 
     The double support after it is cut to `SHORT_PAUSE`, unless the walk stands there.
+
+    Args:
+        plan: the walk; some foot must be in the air at t.
+        t: now, s.
+        pose: (4, 4) of the sole where it lands, world, m.
+        land: when, s.
     """
     step = plan.swing_at(t)
     assert step is not None
@@ -60,6 +66,11 @@ def keep_standing(plan: FootstepPlan, t: float, dcm: Array) -> FootstepPlan | No
 
     There a lifted foot could not catch it, but both feet together can hold it. None where the next
     lift is right; the same plan where that lift is late enough.
+
+    Args:
+        plan: the walk; both feet stand at t.
+        t: now, s.
+        dcm: (2,) measured DCM, world, m.
     """
     step = plan.next_lift(t)
     if step is None:
@@ -137,7 +148,14 @@ def _closing(
 
 
 def outward(plan: FootstepPlan, t: float, foot: Foot, dcm: Array) -> float:
-    """Return how far (m) the DCM is beyond the sole that stands while `foot` steps."""
+    """Return how far (m) the DCM is beyond the sole that stands while `foot` steps.
+
+    Args:
+        plan: the walk.
+        t: now, s.
+        foot: the one that steps.
+        dcm: (2,) DCM, world, m.
+    """
     stance = plan.sole(other(foot), t)
     side = 1.0 if foot == "left" else -1.0
     return -side * float((dcm - stance[:2, 3]) @ stance[:2, 1])

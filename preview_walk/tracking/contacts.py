@@ -28,8 +28,13 @@ CONE_ROWS = 16
 def wrench_cone(half_length: float, half_width: float, friction: float) -> Array:
     """Return C (16, 6) such that C @ wrench <= 0 for every wrench that a sole can carry.
 
-    Half sizes in m, `friction` the coulomb coefficient. The friction cone is its inscribed
-    pyramid. Rows: 4 of friction, 4 of the centre of pressure, 8 of the yaw moment.
+    The friction cone is its inscribed pyramid. Rows: 4 of friction, 4 of the centre of pressure, 8
+    of the yaw moment (Caron, Pham and Nakamura, ICRA 2015, eqs. 8-15).
+
+    Args:
+        half_length: half size of the sole along its x axis, m.
+        half_width: half size along its y axis, m.
+        friction: Coulomb's coefficient.
     """
     x, y, mu = half_length, half_width, friction / np.sqrt(2.0)
     rows = [
@@ -73,10 +78,15 @@ def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Ar
 def load_shares(
     zmp: Sequence[float], first: Sequence[float], second: Sequence[float]
 ) -> tuple[float, float]:
-    """Return the shares of the load on soles at `first` and `second` for a ZMP wanted (x, y each).
+    """Return the shares of the load on two soles for a ZMP wanted.
 
     The lever rule: with these shares the ZMP lies where it is wanted without any moment under the
     soles, and the load leaves a sole before it lifts and comes upon it after it has landed.
+
+    Args:
+        zmp: (x, y) wanted, world, m.
+        first: (x, y) of one sole's centre, m.
+        second: (x, y) of the other's, m.
     """
     x, y = second[0] - first[0], second[1] - first[1]
     distance = x * x + y * y

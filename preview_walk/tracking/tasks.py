@@ -25,7 +25,13 @@ class Task(Protocol):
     """Importance relative to the other tasks, in 1 / (unit of the acceleration)^2; positive."""
 
     def update(self, dynamics: Dynamics, jacobian: Array, target: Array) -> None:
-        """Write the task at the current state into `jacobian` (rows, nv) and `target` (rows,)."""
+        """Write the task at the current state.
+
+        Args:
+            dynamics: at the measured state.
+            jacobian: (rows, nv) to be filled.
+            target: (rows,) to be filled.
+        """
 
 
 class CoMTask:

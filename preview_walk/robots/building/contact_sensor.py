@@ -47,10 +47,15 @@ class WrenchSensor:
 
 
 def zmp(wrenches: tuple[Array, Array], origins: tuple[Array, Array], height: float) -> Array:
-    """Return the ZMP (2,) of two wrenches at two origins on the level at `height` (m).
+    """Return the ZMP (2,), world, m, of the wrenches under two soles.
 
     Vukobratovic's point: where the moment of all contact forces has no horizontal part. NaN where
     nothing pushes up.
+
+    Args:
+        wrenches: (6,) each, ground on robot, world axes, N, N·m.
+        origins: (3,) each, where the wrenches' moments are taken, m.
+        height: of the level on which the point lies, m.
     """
     lift = mx = my = 0.0
     for wrench, origin in zip(wrenches, origins, strict=True):
