@@ -117,6 +117,22 @@ def test_slow_hips_do(talos: Robot) -> None:
     assert once.max_width == gait_limits(talos).max_width
 
 
+def test_yaw_joints_bound_turns_and_pitch_joints_lengths(talos: Robot) -> None:
+    """TALOS's legs begin with a yaw, a roll and a pitch joint."""
+    free = command_limits(talos)
+
+    def slowed(number: int) -> pw.GaitLimits:
+        slow = np.array([f"_{number}_joint" in n and "leg" in n for n in talos.joint_names])
+        assert slow.sum() == 2
+        return command_limits(replace(talos, v_limit=np.where(slow, 0.4, talos.v_limit)))
+
+    yaw, pitch = slowed(1), slowed(3)
+    assert yaw.turn_out < 0.9 * free.turn_out
+    assert (yaw.forward, yaw.backward) == (free.forward, free.backward)
+    assert pitch.forward < 0.9 * free.forward
+    assert (pitch.turn_out, pitch.turn_in) == (free.turn_out, free.turn_in)
+
+
 @pytest.mark.parametrize("change", [-0.05, 0.02])
 def test_a_com_height_of_ones_own(talos: Robot, change: float) -> None:
     robot = at_com_height(talos, talos.com_height + change)
