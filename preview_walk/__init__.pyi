@@ -48,6 +48,7 @@ from .preview.cart_table import ComTrajectory as ComTrajectory
 from .preview.cart_table import cart_table as cart_table
 from .preview.compare import Comparison as Comparison
 from .preview.compare import compare as compare
+from .preview.comparison_plot import plot_comparison as plot_comparison
 from .preview.controller import PreviewController as PreviewController
 from .preview.design import PreviewDesign as PreviewDesign
 from .preview.gains import preview_gains as preview_gains
