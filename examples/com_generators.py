@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 import preview_walk as pw
 
 COLOURS = {"preview": "#0072B2", "mpc": "#D55E00", "dcm": "#009E73"}
+WIDTHS = {"preview": 3.0, "mpc": 1.5, "dcm": 1.2}  # the last lies on the first
 COMMAND = [((0.3, 0.0, 0.2), 4.0)]  # m/s forward, m/s left, rad/s left; s
 FORCE, DURATION = 250.0, 0.2  # N, s
 
@@ -61,15 +62,16 @@ def main() -> None:
         print(f"{name:11}{cells}  {ticks.mean():9.3f},{ticks.max():6.2f}   {others}   {fell} of 3")
         for axes, axis in ((sideways, 1), (forward, 0)):
             axes.plot(walk.time, walk.zmp[:, axis], colour, linewidth=0.8, alpha=0.6)
-            axes.plot(walk.time, walk.com[:, axis], colour, label=f"{name}: CoM (ZMP thin)")
-        pushed.plot(shoved.time, shoved.com_velocity[:, 0], colour, label=name)
+            label = f"{name}: CoM (ZMP thin)"
+            axes.plot(walk.time, walk.com[:, axis], colour, linewidth=WIDTHS[name], label=label)
+        pushed.plot(shoved.time, shoved.com_velocity[:, 0], colour, linewidth=WIDTHS[name])
     for axes, axis in ((sideways, 1), (forward, 0)):
         axes.plot(walk.time, walk.zmp_ref[:, axis], "k--", linewidth=0.8, label="ZMP of the plan")
         axes.set(xlim=(7.0, 10.6), ylabel=f"{'xy'[axis]} [m]")
     forward.set(ylim=(1.0, 2.4))
     sideways.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     pushed.axvspan(push.t, push.t + DURATION, color="0.85")
-    pushed.set(xlabel="time [s]", ylabel="CoM's speed [m/s]", title="pushed (grey)")
+    pushed.set(xlabel="time [s]", ylabel="CoM's speed [m/s]", xlim=(0.0, None))
     figure.savefig(out, dpi=120)
     print(f"wrote {out}")
 
