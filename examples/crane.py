@@ -45,7 +45,7 @@ def main() -> None:
     limits = pw.Limits(y_min=[-np.inf, -angle], y_max=[np.inf, angle])
     comparison = pw.compare(design, course, limits=limits)
     print(comparison)
-    comparison.plot(out)
+    pw.plot_comparison(comparison, out)
 
     print("preview (s)   largest error of the load (m)")
     horizons = [0, 20, 40, 60, 80, 120, 160]

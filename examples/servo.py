@@ -25,7 +25,7 @@ def main() -> None:
     angle = np.interp(t, [0.8, 1.4, 2.0, 2.2, 3.2, 3.8], [0.0, 1.5, 1.5, 0.5, 0.5, 0.0])
     comparison = pw.compare(design, angle, limits=pw.Limits(u_min=-2.0, u_max=2.0))
     print(comparison)
-    comparison.plot(out)
+    pw.plot_comparison(comparison, out)
 
     print("preview (s)   largest error (rad), without the limit")
     horizons = [0, 5, 10, 20, 40, 60]

@@ -19,6 +19,7 @@ from .preview.systems import servo_system as servo_system
 from .preview.mpc import PredictiveServo as PredictiveServo
 from .preview.compare import Comparison as Comparison
 from .preview.compare import compare as compare
+from .preview.comparison_plot import plot_comparison as plot_comparison
 from .preview.cart_table import ComState as ComState
 from .preview.cart_table import ComTrajectory as ComTrajectory
 from .preview.cart_table import cart_table as cart_table

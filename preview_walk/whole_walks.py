@@ -31,6 +31,7 @@ class Settings(TypedDict, total=False):
     solver: str
     swing_height: float | None
     com_height: float | None
+    com_generator: str
     on_tick: Callable[[Walk], None] | None
 
 

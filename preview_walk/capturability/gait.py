@@ -128,7 +128,7 @@ class PushGait:
             w = (1 - exp(-omega T_d)) / (omega T_d) - exp(-omega T_d),
 
         where w is the discounted mean of the way of the CoP; within single support xi grows as
-        exp(omega t) (Englsberger et al. 2015, eq. 7).
+        exp(omega t) (Englsberger et al. 2015, the DCM under a ZMP that is held).
 
         Args:
             share: of single support that is over; None: standing, midway between the soles.

@@ -30,6 +30,7 @@ OPTION_OF = {
     "physics_hz": "--physics-hz",
     "control_hz": "--control-hz",
     "solver": "--solver",
+    "com_generator": "--com-generator",
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 

@@ -171,6 +171,12 @@ OPTIONS = (
         "--solver", "NAME", text("the name of a QP solver"), "osqp, or another one of qpsolvers"
     ),
     Option(
+        "--com-generator",
+        "preview|mpc|dcm",
+        text("the name of a CoM generator"),
+        "preview control (default), Wieber's ZMP MPC or the plan's DCM leads the CoM",
+    ),
+    Option(
         "--out",
         "DIR",
         text("the name of a folder"),

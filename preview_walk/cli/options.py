@@ -36,6 +36,7 @@ class Options:
         seed: of whatever is random.
         physics_hz, control_hz: rates.
         solver: of the QP.
+        com_generator: what leads the CoM along the plan.
         out: the folder of results.
         video, view, no_plots: what to make of the walk.
         list_robots: print the catalogue, do not walk.
@@ -57,6 +58,7 @@ class Options:
     physics_hz: int | None
     control_hz: int | None
     solver: str | None
+    com_generator: str | None
     out: Path
     video: bool
     view: bool
@@ -103,6 +105,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         physics_hz=found.physics_hz,
         control_hz=found.control_hz,
         solver=found.solver,
+        com_generator=found.com_generator,
         out=Path(found.out),
         video=found.video,
         view=found.view,

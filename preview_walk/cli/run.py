@@ -79,6 +79,7 @@ def _walk(
         "physics_hz": options.physics_hz,
         "control_hz": options.control_hz,
         "solver": options.solver,
+        "com_generator": options.com_generator,
     }
     with naming("--robot"), progress_bar() as show:
 

@@ -14,7 +14,9 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
 from preview_walk.geometry.support import Sole
-from preview_walk.pattern.walking_pattern import PLANNING_DT, ComReference, WalkingPattern
+from preview_walk.pattern.com.sampled_plan import PLANNING_DT
+from preview_walk.pattern.walker_model import WalkerModel
+from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import (
     CentroidalState,
@@ -64,6 +66,7 @@ class Walker:
         gains: TrackingGains | None = None,
         solver: str = "osqp",
         swing_height: float | None = None,
+        com_generator: str = "preview",
     ) -> None:
         """Stand on the plan's first soles.
 
@@ -75,6 +78,10 @@ class Walker:
             gains: weights and gains of the tracker; None takes the defaults.
             solver: "osqp" or another backend of qpsolvers.
             swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
+            com_generator: "preview", "mpc" or "dcm".
+
+        Raises:
+            InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = robot
         self.gains = TrackingGains() if gains is None else gains
@@ -85,10 +92,10 @@ class Walker:
         )
         self.weight = robot.mass * robot.gravity
         com = self.body.dynamics.com.copy()
-        legs = leg_geometry(robot)
-        self.pattern = WalkingPattern(
-            plan, com, legs, robot.sole, momentum_model(robot), self.swing_height
+        model = WalkerModel(
+            leg_geometry(robot), robot.sole, momentum_model(robot), self.swing_height
         )
+        self.pattern = WalkingPattern(plan, com, model, com_generator)
         self.feet = Feet(plan, self.weight, self.swing_height)
         self.disturbance = Disturbance()
         self.reference: ComReference = self.pattern.at(plan.start)

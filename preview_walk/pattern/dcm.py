@@ -23,7 +23,7 @@ def planned_dcm(zmp: Array, omega_dt: float) -> Array:
     """Return the DCM (N, 2) in m that goes with a sampled ZMP.
 
     xi(t) = omega * integral from t of exp(-omega (s - t)) p(s) ds: the one bounded solution of
-    xi' = omega (xi - p) (Englsberger et al. 2015, eq. 6 backwards in time), with the ZMP constant
+    xi' = omega (xi - p) (Englsberger et al. 2015, backwards in time), with the ZMP constant
     over each sample and held after the last.
 
     Args:

@@ -45,7 +45,7 @@ def swing_zmp_shift(
     """Return the shift (N, 2) of the ZMP (m) that the swings cause.
 
     The true ZMP is the cart-table's plus this shift: (-L'_y, L'_x) / (m g) with L' the rate of
-    angular momentum of the swings of the plan (Kajita et al. 2014, eq. 3.73).
+    angular momentum of the swings of the plan (Kajita et al. 2014, section 3.4.1).
 
     Args:
         plan: the walk.

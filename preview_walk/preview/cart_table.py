@@ -107,6 +107,31 @@ class ComTrajectory:
         return f"ComTrajectory({len(self.com)} samples of {self.dt} s, {self.com.ndim} axes)"
 
 
+def coasted(state: ComState, jerk: Array, tau: float, lever: float) -> ComState:
+    """Return the exact state tau (s) after `state` with the jerk held: all are polynomials.
+
+    Args:
+        state: of the cart-table.
+        jerk: (2,) m/s^3.
+        tau: s.
+        lever: z_c / g, s^2.
+    """
+    (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
+    jx, jy = jerk.tolist()
+    half, sixth = 0.5 * tau, tau / 3.0
+    bx, by = ax + tau * jx, ay + tau * jy
+    px = cx + tau * (vx + half * (ax + sixth * jx))
+    py = cy + tau * (vy + half * (ay + sixth * jy))
+    rows = (
+        (px, py),
+        (vx + tau * (ax + half * jx), vy + tau * (ay + half * jy)),
+        (bx, by),
+        (jx, jy),
+        (px - lever * bx, py - lever * by),
+    )
+    return _locked(np.array(rows))
+
+
 def _locked(array: Array) -> ComState:
     """Return the state of an array, made read-only."""
     return ComState(read_only(array))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,7 +48,7 @@ class LawResult:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Several laws on one plant; `print` shows the table.
+    """Several laws on one plant; `print` shows the table, `plot_comparison` draws it.
 
     Attributes:
         design: The preview servo that the others were made from.
@@ -98,24 +96,6 @@ class Comparison:
             cells = "".join(f"{x:>{w}.4g}" for x, w in zip(numbers, widths, strict=True))
             lines.append(f"{result.name:>8}{cells}")
         return "\n".join(lines)
-
-    def plot(self, path: str | os.PathLike[str]) -> Path:
-        """Draw outputs and inputs of all laws over time.
-
-        Args:
-            path: The file to write; its suffix names the format.
-
-        Returns:
-            The path written.
-
-        Raises:
-            InvalidInput: If the suffix is not that of a picture.
-            OutputError: If the file cannot be written.
-
-        """
-        from preview_walk.preview.comparison_plot import plot_comparison
-
-        return plot_comparison(self, path)
 
 
 def compare(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,27 +12,34 @@ from matplotlib.figure import Figure
 
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
+from preview_walk.preview.checks import require_type
+from preview_walk.preview.compare import Comparison
 from preview_walk.preview.limits import input_limits, output_limits
 from preview_walk.types import Array
 
-if TYPE_CHECKING:
-    from preview_walk.preview.compare import Comparison
-
-# Okabe and Ito's palette: told apart with any common colour vision, and in grey.
 COLOURS = {"LQR": "#E69F00", "LQI": "#009E73", "preview": "#0072B2", "MPC": "#D55E00"}
+"""Okabe and Ito's palette: told apart with any common colour vision, and in grey."""
 
-# Laws that often coincide are drawn thin over thick.
 WIDTHS = {"LQR": 3.0, "LQI": 1.2, "preview": 3.0, "MPC": 1.2}
+"""Laws that often coincide are drawn thin over thick."""
 
 
 def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Path:
-    """Draw outputs and inputs of all laws over time; return the path written.
+    """Draw outputs and inputs of all laws over time.
+
+    Args:
+        comparison: From `compare`.
+        path: The file to write; its suffix names the format.
+
+    Returns:
+        The path written.
 
     Raises:
-        InvalidInput: If the suffix is not that of a picture.
+        InvalidInput: If it is no comparison, or the suffix not that of a picture.
         OutputError: If the file cannot be written.
 
     """
+    require_type("comparison", comparison, Comparison)
     plant, r = comparison.design.plant, comparison.reference
     p, m = len(plant.C), plant.B.shape[1]
     figure = Figure(figsize=(9.0, 1.0 + 2.3 * (p + m)), layout="constrained")

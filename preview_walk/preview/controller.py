@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table
+from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table, coasted
 from preview_walk.preview.checks import read_only, real_array, require_positive, require_type, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
@@ -183,8 +183,8 @@ class PreviewController:
         """
         try:
             inside = 0.0 <= tau <= self.dt * (1.0 + 1e-9)
-            (cx, cy), (vx, vy), (ax, ay), _, _ = state.array.tolist()
-            jx, jy = following.array[3].tolist()
+            jerk = following.array[3]
+            between = coasted(state, jerk, tau, self._lever) if inside else state
         except (AttributeError, TypeError, ValueError):
             require_type("state", state, ComState)
             require_type("following", following, ComState)
@@ -193,21 +193,7 @@ class PreviewController:
             raise InvalidInput(
                 f"expected tau to be 0 to {self.dt} s, got {shown(tau)}.", argument="tau"
             )
-        half, sixth = 0.5 * tau, tau / 3.0
-        bx, by = ax + tau * jx, ay + tau * jy
-        px = cx + tau * (vx + half * (ax + sixth * jx))
-        py = cy + tau * (vy + half * (ay + sixth * jy))
-        return _state(
-            np.array(
-                (
-                    (px, py),
-                    (vx + tau * (ax + half * jx), vy + tau * (ay + half * jy)),
-                    (bx, by),
-                    (jx, jy),
-                    (px - self._lever * bx, py - self._lever * by),
-                )
-            )
-        )
+        return between
 
     def trajectory(
         self,

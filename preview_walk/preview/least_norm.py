@@ -1,4 +1,4 @@
-"""The least x with rows x <= bounds, by OSQP: what both predictive controllers come down to."""
+"""The least x with rows x <= bounds, by OSQP: what the predictive servo comes down to."""
 
 from __future__ import annotations
 
@@ -41,19 +41,3 @@ def least_norm(rows: Array, bounds: Array) -> Array | None:
     whole = np.zeros(rows.shape[1])
     whole[used] = solution.x
     return whole
-
-
-def least_norm_within(rows: Array, bounds: Array) -> Array | None:
-    """Return the same for many rows, of which only those that a solution breaks are used."""
-    slack = TOLERANCE * (1.0 + np.abs(bounds))
-    found, active = np.zeros(rows.shape[1]), np.zeros(len(rows), dtype=bool)
-    for _ in range(ROUNDS):
-        broken = rows @ found > bounds + slack
-        if not broken.any():
-            return found
-        active |= broken
-        solution = least_norm(rows[active], bounds[active])
-        if solution is None:
-            return None
-        found = solution
-    return None

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComTrajectory, cart_table
 from preview_walk.preview.checks import finite_vector, real_array, require_positive, shown
-from preview_walk.preview.least_norm import least_norm_within
+from preview_walk.preview.least_distance import least_distance
 from preview_walk.types import Array
 
 
@@ -40,17 +40,24 @@ def half_planes(polygon: ArrayLike) -> tuple[Array, Array]:
             f"expected a polygon of shape (V, 2) with V >= 3, finite, got shape {vertices.shape}.",
             argument="polygon",
         )
-    sides = np.roll(vertices, -1, axis=0) - vertices
-    following = np.roll(sides, -1, axis=0)
-    turns = sides[:, 0] * following[:, 1] - sides[:, 1] * following[:, 0]
-    lengths = np.linalg.norm(sides, axis=1)
+    edges = np.roll(vertices, -1, axis=0) - vertices
+    following = np.roll(edges, -1, axis=0)
+    turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
+    lengths = np.linalg.norm(edges, axis=1)
     if not (lengths > 0.0).all() or not ((turns > 0.0).all() or (turns < 0.0).all()):
         raise InvalidInput(
             "expected a convex polygon whose vertices are corners in order, got one that is not.",
             argument="polygon",
         )
-    normals = np.column_stack([sides[:, 1], -sides[:, 0]]) / lengths[:, None] * np.sign(turns[0])
-    return normals, np.einsum("vi,vi->v", normals, vertices)
+    return sides(vertices if turns[0] > 0.0 else vertices[::-1])
+
+
+def sides(polygon: Array) -> tuple[Array, Array]:
+    """Return (V, 2) outward unit normals and (V,) offsets (m) of a polygon, counter-clockwise."""
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    lengths = np.hypot(edges[:, 0], edges[:, 1])
+    normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / lengths[:, None]
+    return normals, np.einsum("vi,vi->v", normals, polygon)
 
 
 def zmp_mpc(
@@ -94,7 +101,7 @@ def zmp_mpc(
         raise InvalidInput("expected at least one support polygon, got none.", argument="supports")
     plant = cart_table(z_c, dt)
     a, b, c = plant.A, plant.B, plant.C
-    free, forced = _zmp_ahead(a, b, c, horizon)
+    free, forced = zmp_ahead(a, b, c, horizon)
     state = np.zeros((3, 2))
     state[0] = finite_vector("com", com, np.asarray(polygons[0], dtype=float).mean(axis=0))
     rows = np.empty((len(planes), 5, 2))
@@ -124,7 +131,7 @@ def _horizon(preview_time: float, dt: float) -> int:
     return max(1, round(preview_time / dt))
 
 
-def _zmp_ahead(a: Array, b: Array, c: Array, horizon: int) -> tuple[Array, Array]:
+def zmp_ahead(a: Array, b: Array, c: Array, horizon: int) -> tuple[Array, Array]:
     """Return P_x (N, 3) and P_u (N, N) of the ZMP at samples 1 to N, P_x x + P_u jerks."""
     free, forced = np.empty((horizon, 3)), np.zeros((horizon, horizon))
     power = np.eye(3)
@@ -143,5 +150,5 @@ def _least_jerk(free: Array, forced: Array, window: list[tuple[Array, Array]]) -
     for i, (normals, offsets) in enumerate(window):
         rows.append(np.hstack([normals[:, :1] * forced[i], normals[:, 1:] * forced[i]]))
         bounds.append(offsets - normals @ free[i])
-    found = least_norm_within(np.vstack(rows), np.concatenate(bounds))
+    found = least_distance(np.vstack(rows), np.concatenate(bounds))
     return None if found is None else found.reshape(2, -1)[:, 0]

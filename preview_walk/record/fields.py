@@ -72,7 +72,7 @@ class Ticks:
     dcm_ref: Array = _array(2, unit="m", doc="DCM of the references")
     zmp: Array = _array(2, unit="m", doc="zero-moment point of the contact forces; nan in flight")
     zmp_ref: Array = _array(2, unit="m", doc="ZMP that the plan asks for")
-    zmp_preview: Array = _array(2, unit="m", doc="ZMP that the preview model predicts")
+    zmp_preview: Array = _array(2, unit="m", doc="ZMP of the CoM reference")
 
     left_foot: Array = _array(4, 4, unit="m", doc="pose of the left sole frame in the world")
     right_foot: Array = _array(4, 4, unit="m", doc="pose of the right sole frame in the world")

@@ -32,6 +32,7 @@ class RunFacts:
         sole: (half length, half width), m.
         omega: natural frequency of the walker's pendulum, 1/s. The record's DCM is
             com_xy + com_velocity_xy / omega, and that of the references is made likewise.
+        com_generator: what led the CoM along the plan: "preview", "mpc" or "dcm".
         swing_height: of the swing foot's apex above the ground, m.
         control_hz: ticks of the controller per second.
         physics_hz: steps of the physics per second.
@@ -65,6 +66,7 @@ class RunFacts:
     step_width: float = nan
     sole: tuple[float, float] = (nan, nan)
     omega: float = nan
+    com_generator: str = ""
     swing_height: float = nan
     physics_hz: float = nan
     friction: float = nan

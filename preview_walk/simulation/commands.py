@@ -42,10 +42,14 @@ class VelocityCommands:
         self._later: list[tuple[float, Command]] = []
         self._due = np.inf
 
-    @property
-    def endless(self) -> bool:
-        """Whether a command is in force that nothing will end."""
-        return any(self.current) and not self._later
+    def require_end(self) -> None:
+        """Raise `InvalidInput` where a command is in force that nothing will end."""
+        if any(self.current) and not self._later:
+            raise InvalidInput(
+                "until must be given while a command is in force, got a walk at "
+                f"{self.current} for ever; command(0, 0, 0) stops it.",
+                "until",
+            )
 
     @property
     def end(self) -> float:

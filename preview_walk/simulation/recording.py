@@ -35,6 +35,7 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
         step_width=robot.step_width,
         sole=(robot.sole.half_length, robot.sole.half_width),
         omega=walker.pattern.omega,
+        com_generator=walker.pattern.com_generator,
         swing_height=walker.swing_height,
         physics_hz=1.0 / plant.timestep,
         friction=plant.friction,

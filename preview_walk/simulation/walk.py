@@ -69,6 +69,7 @@ class Walk:
         solver: str = "osqp",
         swing_height: float | None = None,
         com_height: float | None = None,
+        com_generator: str = "preview",
         on_tick: Callable[[Walk], None] | None = None,
         visuals: bool | None = None,
     ) -> None:
@@ -89,6 +90,8 @@ class Walk:
                 proportion to the leg.
             com_height: of the CoM above the soles while standing, m; None takes that of the robot's
                 walking posture.
+            com_generator: what leads the CoM along the plan: "preview" (preview control), "mpc"
+                (the least jerk with the ZMP on the soles) or "dcm" (it follows the plan's DCM).
             on_tick: called with the walk at the end of every tick, before the physics steps.
             visuals: run on the model with visual meshes, for the live viewer.
 
@@ -115,14 +118,14 @@ class Walk:
             gains=gains,
             solver=solver,
             swing_height=swing_height,
+            com_generator=com_generator,
         )
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = on_tick
         self._requests = Requests()
-        self._start, self._tick, self._wall = plan.start, 0, 0.0
+        self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
         self._fall: tuple[float, str] | None = None
-        self._interrupted = False
         self._recorder = WalkRecorder(
             self.plant, self.walker, control_hz=control_hz, seed=seed, solver=solver
         )
@@ -243,12 +246,8 @@ class Walk:
         """
         if until is not None and np.isnan(until):
             raise InvalidInput(f"until must be a time in s, got {until}.", "until")
-        if until is None and self._commands.endless:
-            raise InvalidInput(
-                "until must be given while a command is in force, got a walk at "
-                f"{self._commands.current} for ever; command(0, 0, 0) stops it.",
-                "until",
-            )
+        if until is None:
+            self._commands.require_end()
         try:
             with one_thread():
                 while not (self.fallen or self._interrupted):

@@ -5,7 +5,7 @@ With the DCM xi = c + c' / omega and the cart-table's c'' = omega^2 (c - p), a Z
     p = p_ref + (1 + k / omega) (xi - xi_ref) + d / omega
 
 gives the error e = c - c_ref the dynamics e'' = -(omega + k) e' - omega k e, with poles at -omega
-and at -k (Sugihara, ICRA 2009; Englsberger, Ott and Albu-Schaeffer, T-RO 2015, eq. 29). The
+and at -k (Sugihara, ICRA 2009; Englsberger, Ott and Albu-Schaeffer, T-RO 2015). The
 disturbance d, by which the DCM runs besides omega (xi - p), is opposed as it is observed, before an
 error has grown.
 """

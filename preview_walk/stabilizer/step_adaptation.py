@@ -1,7 +1,7 @@
 """Step adaptation: where and when the swing foot lands so that a pushed walker can go on.
 
 The divergent component of motion (DCM) xi = c + c' / omega runs away from the ZMP p:
-xi' = omega (xi - p) (Takenaka 2009; Englsberger, Ott and Albu-Schaeffer 2015, eq. 6). Over the
+xi' = omega (xi - p) (Takenaka 2009; Englsberger, Ott and Albu-Schaeffer 2015). Over the
 rest of a step, with the ZMP moved by a constant delta from where the plan has it, the error e of
 the DCM grows by tau = exp(omega T) to
 

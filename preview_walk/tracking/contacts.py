@@ -2,7 +2,7 @@
 
 The wrench [force; moment] (N, N·m) acts on the robot at the sole's centre, in the sole's axes.
 With coulomb friction under a rectangle it must lie in a cone of constant matrix (Caron, Pham and
-Nakamura, ICRA 2015, eqs. 8-15), which saves the QP from moving entries.
+Nakamura, ICRA 2015), which saves the QP from moving entries.
 """
 
 from __future__ import annotations

@@ -20,6 +20,7 @@ from preview_walk.files import OutputError
         (InvalidInput("it is slippery.", "friction"), "--friction: it is slippery."),
         (InvalidInput("a push names the body 'x'", "pushes"), "--push: a push names the body 'x'."),
         (InvalidInput("must be osqp", "solver"), "--solver: must be osqp."),
+        (InvalidInput("must be dcm", "com_generator"), "--com-generator: must be dcm."),
         (InvalidInput("must be 1", "physics_hz"), "--physics-hz: must be 1."),
         (
             InvalidInput("too far ahead in the air", "step_length"),

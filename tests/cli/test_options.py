@@ -49,8 +49,8 @@ def test_every_option_is_read() -> None:
         "--robot my.xml --steps 7 --step-length -0.1 --step-time 0.62 --double-support-ratio 0.05 "
         "--turn -9 --start -100,.5,137 --friction 0.5 --push 2,0.2,-150,0,1e1 "
         "--push=3,0.1,0,-5,0 --pushes impulse=20,every=3 --seed 9 --physics-hz 2000 "
-        "--control-hz 1000 --solver daqp --out there --no-plots --video --view --list-robots "
-        "--inspect my.urdf"
+        "--control-hz 1000 --solver daqp --com-generator dcm --out there --no-plots --video "
+        "--view --list-robots --inspect my.urdf"
     )
     assert parse(line.split()) == cli_options.Options(
         robot="my.xml",
@@ -68,6 +68,7 @@ def test_every_option_is_read() -> None:
         physics_hz=2000,
         control_hz=1000,
         solver="daqp",
+        com_generator="dcm",
         out=Path("there"),
         video=True,
         view=True,

@@ -33,9 +33,11 @@ def test_what_is_not_asked_for_the_simulation_decides(simulation: Simulation, ou
     assert set(simulation.calls[0]) == {"robot", "plan", "pushes", "seed", "viewer"}
 
 
-def test_rates_and_solver_reach_the_simulation(simulation: Simulation, out: Path) -> None:
-    assert run(out, *["--physics-hz", "2000", "--control-hz", "500", "--solver", "daqp"]) == 0
+def test_rates_solver_and_generator_reach_the_simulation(simulation: Simulation, out: Path) -> None:
+    line = "--physics-hz 2000 --control-hz 500 --solver daqp --com-generator mpc"
+    assert run(out, *line.split()) == 0
     (call,) = simulation.calls
+    assert call["com_generator"] == "mpc"
     assert (call["physics_hz"], call["control_hz"], call["solver"]) == (2000, 500, "daqp")
 
 

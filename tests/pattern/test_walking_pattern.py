@@ -4,32 +4,21 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 import pytest
+from walker_stand_in import LEGS, MODEL, MOMENTUM, SOLE, SWING_HEIGHT, fast_walk, slow_walk
 
 from preview_walk.constants import GRAVITY
 from preview_walk.footsteps.goals import from_list
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
-from preview_walk.geometry.poses import Heading, midfeet, pose_at
-from preview_walk.geometry.support import Sole, support_margin, support_polygon
-from preview_walk.pattern.com_height import LegGeometry
-from preview_walk.pattern.swing_moment import MomentumModel, swing_zmp_shift
-from preview_walk.pattern.walking_pattern import PLANNING_DT, ComReference, WalkingPattern
+from preview_walk.geometry.poses import midfeet, pose_at
+from preview_walk.geometry.support import support_margin, support_polygon
+from preview_walk.pattern.com.sampled_plan import PLANNING_DT
+from preview_walk.pattern.swing_moment import swing_zmp_shift
+from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
 from preview_walk.pattern.zmp_reference import zmp_reference
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, Array, Foot
 
-LEGS = LegGeometry(length=0.812, hip_height=0.747, com_height=0.876)
-SOLE = Sole(0.105, 0.065)
-SWING_HEIGHT = 0.049
-# About TALOS.
-MOMENTUM = MomentumModel(
-    90.0,
-    np.array([[0.0, -10.4, 0.0], [13.6, 0.0, 11.2], [0.0, -0.4, 0.0]]),
-    {
-        "left": np.array([[0.2, 5.2, 0.8], [-6.8, -0.2, -5.6], [-0.9, 0.2, -0.8]]),
-        "right": np.array([[-0.2, 5.2, -0.8], [-6.8, 0.2, -5.6], [0.9, 0.2, 0.8]]),
-    },
-)
 DT = 0.002
 
 
@@ -50,18 +39,10 @@ class Motion:
 Walked = tuple[FootstepPlan, WalkingPattern, Motion]
 
 
-def slow_walk(n_steps: int = 6, start: Heading = (0.0, 0.0, 0.0)) -> FootstepPlan:
-    return FootstepPlanner(0.25, 0.17, 0.9).generate_footsteps(n_steps, start, ramp=2)
-
-
-def fast_walk() -> FootstepPlan:
-    return FootstepPlanner(0.5, 0.17, 0.62, 0.05).generate_footsteps(9, ramp=3)
-
-
 def pattern_of(plan: FootstepPlan) -> WalkingPattern:
     x, y, _ = midfeet(plan[0].pose, plan[1].pose)
     com = np.array((x, y, plan[0].pos[2] + LEGS.com_height))
-    return WalkingPattern(plan, com, LEGS, SOLE, MOMENTUM, SWING_HEIGHT)
+    return WalkingPattern(plan, com, MODEL)
 
 
 def motion(pattern: WalkingPattern, times: Array) -> Motion:

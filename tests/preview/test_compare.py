@@ -8,6 +8,7 @@ import pytest
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import cart_table
 from preview_walk.preview.compare import LAWS, Comparison, compare
+from preview_walk.preview.comparison_plot import plot_comparison
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.limits import Limits
 from preview_walk.preview.response import track
@@ -50,9 +51,9 @@ def test_the_table_and_the_plot(walk: Comparison, tmp_path: Path) -> None:
     assert [line.split()[0] for line in lines] == ["law", *LAWS]
     assert len({len(line) for line in lines}) == 1
     assert repr(walk) == "Comparison(LQR, LQI, preview, MPC: 250 samples)"
-    assert walk.plot(tmp_path / "laws.png").stat().st_size > 10_000
+    assert plot_comparison(walk, tmp_path / "laws.png").stat().st_size > 10_000
     with pytest.raises(InvalidInput, match="ends in one of"):
-        walk.plot(tmp_path / "laws.xyz")
+        plot_comparison(walk, tmp_path / "laws.xyz")
 
 
 def test_refusals(walk: Comparison) -> None:
@@ -63,6 +64,7 @@ def test_refusals(walk: Comparison) -> None:
         (lambda: compare(walk.design, [0.0], x0="rest"), "x0"),
         (lambda: compare(walk.design, [0.0], limits=Limits(y_max=np.ones(7))), "y_max"),
         (lambda: walk["PID"], "name"),
+        (lambda: plot_comparison("laws", "laws.png"), "comparison"),
     ):
         with pytest.raises(InvalidInput) as caught:
             call()
