@@ -7,10 +7,10 @@ of a size that arithmetic can bear, so nothing behind them overflows or divides 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import degrees, isfinite, nan
 from numbers import Integral, Real
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -23,6 +23,9 @@ their products and quotients would leave the range of a float."""
 
 MOST = 100_000
 """Steps of a walk, and the like, are at most this many: a day of walking."""
+
+LARGEST_SEED = 2**63 - 1
+"""Seeds of random numbers are at most this, which every file format holds."""
 
 MOST_SAMPLES = 10_000_000
 """Sampled references have at most this many rows: beyond it the memory of a laptop ends."""
@@ -37,7 +40,7 @@ def finite_number(value: object, name: str, unit: str) -> float:
     Raises:
         InvalidInput: it is not a finite real number within `LARGEST`.
     """
-    number = value if type(value) is float else _real(value)
+    number = value if type(value) is float else as_number(value)
     if -LARGEST <= number <= LARGEST:
         return number
     need = f"between -1e9 and 1e9 {unit}".rstrip() if isfinite(number) else f"finite ({unit})"
@@ -50,7 +53,7 @@ def positive_number(value: object, name: str, unit: str = "") -> float:
     Raises:
         InvalidInput: it is not a real number > 0 between `SMALLEST` and `LARGEST`.
     """
-    number = _real(value)
+    number = as_number(value)
     if SMALLEST <= number <= LARGEST:
         return number
     need = "between 1e-9 and 1e9" if isfinite(number) and number > 0.0 else "> 0"
@@ -65,11 +68,24 @@ def number_from_zero(value: object, name: str, unit: str) -> float:
     Raises:
         InvalidInput: it is not a real number >= 0 within `LARGEST`.
     """
-    number = _real(value)
+    number = as_number(value)
     if 0.0 <= number <= LARGEST:
         return number
     need = "between 0 and 1e9" if isfinite(number) and number > 0.0 else ">= 0"
     raise InvalidInput(f"{name} must be {need} {unit}, got {shown(value)}.", argument=name)
+
+
+def number_within(value: object, name: str, low: float, high: float, unit: str = "") -> float:
+    """Return `value` as a float.
+
+    Raises:
+        InvalidInput: it is not a real number from `low` to `high`.
+    """
+    number = as_number(value)
+    if low <= number <= high:
+        return number
+    need = f"{name} must be between {low:g} and {high:g} {unit}".rstrip()
+    raise InvalidInput(f"{need}, got {shown(value)}.", argument=name)
 
 
 def share_of(value: object, name: str, whole: str) -> float:
@@ -78,7 +94,7 @@ def share_of(value: object, name: str, whole: str) -> float:
     Raises:
         InvalidInput: it is not a real number in (0, 1).
     """
-    number = _real(value)
+    number = as_number(value)
     if 0.0 < number < 1.0:
         return number
     raise InvalidInput(
@@ -92,22 +108,22 @@ def time_of(value: object, name: str = "t") -> float:
     Raises:
         InvalidInput: it is not a real number.
     """
-    number = _real(value)
+    number = as_number(value)
     if number == number:
         return number
     raise InvalidInput(f"{name} must be a time in s, got {shown(value)}.", argument=name)
 
 
-def count_of(value: object, name: str) -> int:
+def count_of(value: object, name: str, most: int = MOST) -> int:
     """Return `value` as an int.
 
     Raises:
-        InvalidInput: it is not an integer from 0 to `MOST`.
+        InvalidInput: it is not an integer from 0 to `most`.
     """
     count = -1 if type(value) is bool or not isinstance(value, Integral) else int(value)
-    if 0 <= count <= MOST:
+    if 0 <= count <= most:
         return count
-    need = f"at most {MOST}" if count > MOST else "an integer >= 0"
+    need = f"at most {most}" if count > most else "an integer >= 0"
     raise InvalidInput(f"{name} must be {need}, got {shown(value)}.", argument=name)
 
 
@@ -147,13 +163,24 @@ def instance_of(value: object, kind: type[_Kind], name: str) -> _Kind:
     raise InvalidInput(f"{name} must be a {kind.__name__}, got {shown(value)}.", argument=name)
 
 
+def function_of(value: Callable[..., Any] | None, name: str) -> Callable[..., Any] | None:
+    """Return `value`, which can be called, or is None.
+
+    Raises:
+        InvalidInput: it cannot.
+    """
+    if value is None or callable(value):
+        return value
+    raise InvalidInput(f"{name} must be a function or None, got {shown(value)}.", argument=name)
+
+
 def items_of(value: Iterable[object], kind: type[_Kind], name: str) -> Iterator[_Kind]:
     """Yield the items of an iterable, which are all of this type.
 
     Raises:
         InvalidInput: it is not iterable, an item is of another type, or there are more than `MOST`.
     """
-    need = f"{name} must hold a {kind.__name__} for each step"
+    need = f"{name} must hold a {kind.__name__} each"
     try:
         items = iter(value)
     except TypeError:
@@ -189,6 +216,7 @@ def shown(value: object) -> str:
         text = str(value) if isinstance(value, Real) else repr(value)
     except Exception:  # of an integer too long to print, or of somebody's class
         text = f"a {type(value).__name__}"
+    text = " ".join(text.split())
     return text if len(text) <= 80 else f"{text[:60]} (and more)"
 
 
@@ -197,7 +225,7 @@ def angle(value: float) -> str:
     return f"{value:.3f} rad ({degrees(value):.1f} degrees)"
 
 
-def _real(value: object) -> float:
+def as_number(value: object) -> float:
     """Return a real number as a float; nan for anything else."""
     if type(value) is float:
         return value

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class PreviewWalkError(Exception):
     """Base of every error raised by this package."""
@@ -25,3 +28,13 @@ class InvalidInput(PreviewWalkError, ValueError):
 
 class RobotError(InvalidInput):
     """A robot file or description that cannot walk; names the offending body, joint or frame."""
+
+
+@contextmanager
+def about(argument: str) -> Iterator[None]:
+    """Give the errors of this block the name of the argument at fault, where they have none."""
+    try:
+        yield
+    except InvalidInput as error:
+        error.argument = error.argument or argument
+        raise

@@ -7,7 +7,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput, PreviewWalkError
+
+LONG = 300
+"""Longest path (characters) that a sentence has in full."""
 
 _PART = ".part-"
 """How temporary names begin; the number of the process that writes the file follows."""
@@ -32,8 +36,26 @@ def as_path(path: str | os.PathLike[str]) -> Path:
     except TypeError:
         found = Path("\0")
     if "\0" in str(found):
-        raise InvalidInput(f"a file's name must be a path, got {path!r:.80}.", argument="path")
+        raise InvalidInput(f"a file's name must be a path, got {shown(path)}.", argument="path")
     return found
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Return whether there is a folder of this name; a name too long for one names none.
+
+    Raises:
+        InvalidInput: it is no path.
+    """
+    try:
+        return as_path(path).is_dir()
+    except OSError:
+        return False
+
+
+def short(path: Path) -> str:
+    """Return how a sentence names a path: its end, where it is very long."""
+    name = str(path)
+    return name if len(name) <= LONG else f"(and more){name[-60:]}"
 
 
 @contextmanager
@@ -58,9 +80,9 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
         os.replace(part, target)
     except OSError as error:
         reason = error.strerror or str(error)
-        raise OutputError(f"cannot write {target}: {reason}.") from error
+        raise OutputError(f"cannot write {short(target)}: {reason}.") from error
     finally:
-        with suppress(OSError):
+        with suppress(OSError, ValueError):
             part.unlink()
 
 

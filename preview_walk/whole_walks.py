@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
+from preview_walk.arguments import function_of
 from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
@@ -58,6 +59,7 @@ def simulate(
     Raises:
         InvalidInput: the plan has a step that the robot cannot make; and as `Walk` does.
     """
+    function_of(progress, "progress")
     plan = as_plan(plan)
     require_walkable(plan, gait_limits(robot))
     return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
@@ -85,6 +87,7 @@ def simulate_commands(
     Raises:
         InvalidInput: a command or duration that cannot be; and as `Walk` does.
     """
+    function_of(progress, "progress")
     walk = Walk.standing(robot, start, visuals=viewer, **settings)
     walk.schedule(commands)
     return _recorded(walk, progress, viewer)

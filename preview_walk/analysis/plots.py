@@ -22,15 +22,17 @@ from preview_walk.analysis.load_plots import (
 )
 from preview_walk.analysis.motion_plots import draw_axis, draw_errors, draw_feet
 from preview_walk.analysis.phase_plots import draw_phases, draw_timing_errors
-from preview_walk.analysis.style import new_figure, save_figure
+from preview_walk.analysis.style import new_figure, picture_path, save_figure
 from preview_walk.analysis.top_view import draw_top_view
+from preview_walk.arguments import instance_of, shown
 from preview_walk.errors import InvalidInput
-from preview_walk.files import as_path
+from preview_walk.files import OutputError, as_path, is_folder, short
 from preview_walk.record.record import Record
 
 
 def top_view(record: Record) -> Figure:
     """Draw footprints, ZMP and CoM from above, planned and measured."""
+    _require_ticks(record)
     width, height = np.ptp(from_start(record, record.com[:, :2]), axis=0) + 0.6
     figure = new_figure(12, float(np.clip(11 * height / width + 1.6, 3.2, 12)))
     draw_top_view(figure.subplots(), record)
@@ -114,7 +116,8 @@ def plot(record: Record, path: str | os.PathLike[str]) -> Path:
         OutputError: the file cannot be written.
     """
     _require_ticks(record)
-    return save_figure(overview(record), path)
+    target = picture_path(path)
+    return save_figure(overview(record), target)
 
 
 def save_plot(record: Record, name: str, path: str | os.PathLike[str]) -> Path:
@@ -125,24 +128,30 @@ def save_plot(record: Record, name: str, path: str | os.PathLike[str]) -> Path:
             suffix.
         OutputError: the file cannot be written.
     """
-    if name not in list(PLOTS):
+    if not isinstance(name, str) or name not in PLOTS:
         raise InvalidInput(
-            f"a plot's name must be one of {', '.join(PLOTS)}, got {name!r}.", argument="name"
+            f"a plot's name must be one of {', '.join(PLOTS)}, got {shown(name)}.", argument="name"
         )
     _require_ticks(record)
-    return save_figure(PLOTS[name](record), path)
+    target = picture_path(path)
+    return save_figure(PLOTS[name](record), target)
 
 
 def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
     """Write every plot of `PLOTS` to an existing folder as `NAME.png`; return their paths.
 
     Raises:
-        InvalidInput: the record is empty.
-        OutputError: a file cannot be written.
+        InvalidInput: the record is empty, or the folder no path.
+        OutputError: there is no such folder, or a file cannot be written.
     """
+    _require_ticks(record)
+    if not is_folder(folder):
+        raise OutputError(f"cannot write to {short(as_path(folder))}: there is no such folder.")
     return [save_plot(record, name, as_path(folder) / f"{name}.png") for name in PLOTS]
 
 
 def _require_ticks(record: Record) -> None:
-    if not len(record):
-        raise InvalidInput("a plot needs a record of at least one tick, got an empty one.")
+    if not len(instance_of(record, Record, "record")):
+        raise InvalidInput(
+            "a plot needs a record of at least one tick, got an empty one.", "record"
+        )

@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import as_path, whole_file
+from preview_walk.files import as_path, short, whole_file
 from preview_walk.record.record import Record
 from preview_walk.types import FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array, Foot
 
@@ -62,15 +62,26 @@ def save_figure(figure: Figure, path: str | os.PathLike[str]) -> Path:
         InvalidInput: matplotlib does not know the suffix.
         OutputError: the file cannot be written.
     """
-    target = as_path(path)
-    formats = sorted(figure.canvas.get_supported_filetypes())
-    suffix = target.suffix.lstrip(".").lower()
-    if suffix not in formats:
-        raise InvalidInput(
-            f"a plot's file name must end in one of {', '.join(formats)}, got '{target.name}'."
-        )
+    target = picture_path(path)
     with whole_file(target) as part:
-        figure.savefig(part, format=suffix, dpi=150)
+        figure.savefig(part, format=target.suffix.lstrip(".").lower(), dpi=150)
+    return target
+
+
+def picture_path(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a picture.
+
+    Raises:
+        InvalidInput: it is none, or matplotlib does not know the suffix.
+    """
+    target = as_path(path)
+    formats = sorted(FigureCanvasAgg.get_supported_filetypes())
+    if target.suffix.lstrip(".").lower() not in formats:
+        name = short(Path(target.name))
+        raise InvalidInput(
+            f"a plot's file name must end in one of {', '.join(formats)}, got '{name}'.",
+            "path",
+        )
     return target
 
 

@@ -12,7 +12,7 @@ from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import PUSH_TIME
 from preview_walk.cli.options import Options
 from preview_walk.cli.progress import progress_bar
-from preview_walk.cli.results import make_folder, result_names, write_results, writers_of
+from preview_walk.cli.results import claimed, make_folder, result_names, write_results, writers_of
 from preview_walk.cli.streams import complain, say
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
@@ -47,6 +47,19 @@ def run(options: Options, command: str, interruption: Interruption) -> Record:
     with naming("--pushes"):
         pushes += _random_pushes(options, end)
     make_folder(options.out, result_names())
+    with claimed(options.out):
+        return _walk_and_write(options, robot, plan, pushes, command, interruption)
+
+
+def _walk_and_write(
+    options: Options,
+    robot: Robot,
+    plan: FootstepPlan | None,
+    pushes: tuple[Push, ...],
+    command: str,
+    interruption: Interruption,
+) -> Record:
+    """Walk, print the table and write the folder; return the record."""
     record = _walk(options, robot, plan, pushes, interruption).with_run(command=command)
     interruption.hold()
     stopped = record.run.interrupted

@@ -8,13 +8,19 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 
+from preview_walk.arguments import instance_of
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.pattern.com_height import LegGeometry
 from preview_walk.robots.robot import Robot
 
 
 def gait_limits(robot: Robot) -> GaitLimits:
-    """Return the bounds of the steps that the robot's legs can make."""
+    """Return the bounds of the steps that the robot's legs can make.
+
+    Raises:
+        InvalidInput: it is no robot.
+    """
+    instance_of(robot, Robot, "robot")
     return GaitLimits.for_leg(robot.leg_length, robot.step_width, robot.sole)
 
 

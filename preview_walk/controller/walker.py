@@ -6,9 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.feet import Feet
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
+from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
@@ -30,6 +32,7 @@ from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, reco
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
 from preview_walk.tracking.gains import TrackingGains
+from preview_walk.tracking.measured import check_forces
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 
@@ -83,12 +86,19 @@ class Walker:
         Raises:
             InvalidInput: there is no such solver or CoM generator.
         """
-        self.robot = robot
+        self.robot = instance_of(robot, Robot, "robot")
+        instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
+        q = real_array(q, "q", "the configuration of the robot")
         self.body = WholeBodyController(robot, self.gains, friction, solver)
+        if q.shape != (robot.pin.nq,):
+            raise InvalidInput(f"q must be of shape ({robot.pin.nq},), got {shown(q)}.", "q")
         self.body.update(q, np.zeros(robot.pin.nv))
+        leg = robot.leg_length
         self.swing_height = (
-            SWING_HEIGHT * robot.leg_length if swing_height is None else swing_height
+            SWING_HEIGHT * leg
+            if swing_height is None
+            else number_within(swing_height, "swing_height", 0.0, leg, "m, the leg's length")
         )
         self.weight = robot.mass * robot.gravity
         com = self.body.dynamics.com.copy()
@@ -148,8 +158,9 @@ class Walker:
             normal_force: what each sole's force sensor reads, N.
 
         Raises:
-            StateError: the state is not finite.
+            StateError: the state cannot be measured: not finite, or absurd.
         """
+        check_forces(normal_force)
         self.body.update(q, v)
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)

@@ -176,7 +176,7 @@ def as_pose(value: object, name: str) -> Array:
         pose = real_array(value, name, form).copy()
         pose.setflags(write=False)
     if pose.shape != (4, 4) or not _is_rigid(pose):
-        came = repr(value) if pose.shape == (4, 4) else shown(value)
+        came = " ".join(repr(value).split()) if pose.shape == (4, 4) else shown(value)
         raise InvalidInput(f"{name} must be {form}, got {came}.", argument=name)
     return pose
 

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.arguments import finite_number, instance_of
 from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
@@ -63,6 +64,7 @@ class WalkingController:
             RobotError: a model that cannot walk; says what is in the way.
             InvalidInput: a com_height that the legs cannot give.
         """
+        instance_of(model, mujoco.MjModel, "model")
         robot = load_robot(model)
         self._scene_of = (model, data)
         Scene(robot, model, data)  # says at once what is in the way
@@ -81,6 +83,8 @@ class WalkingController:
                 "and run_walking takes plan, pushes, turn, swing_height and on_tick.",
                 name,
             )
+        if name == "planner":
+            instance_of(value, FootstepPlanner, name)
         object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
@@ -169,7 +173,7 @@ class WalkingController:
         if plan is None:
             plan = self.planner.generate_footsteps(n_steps, place, turn=turn)
             plan = plan.transformed(pose_at(0.0, 0.0, z=z))
-        elif turn != 0.0:
+        elif finite_number(turn, "turn", "rad") != 0.0:
             raise InvalidInput(
                 f"turn must be left out beside a plan, which has its own, got {turn}.", "turn"
             )
@@ -193,7 +197,8 @@ class WalkingController:
 
 def _rates(timestep: float, dt: float) -> tuple[int, int]:
     """Return the physics steps of a control tick and the ticks from one row to the next."""
-    count = round(dt / timestep) if np.isfinite(dt) else 0
+    dt = finite_number(dt, "dt", "s")
+    count = round(dt / timestep)
     if count < 1 or abs(count * timestep - dt) > 1e-9:
         raise InvalidInput(
             f"dt must be a positive multiple of the model's timestep of {timestep:g} s, got {dt}.",

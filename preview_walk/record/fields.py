@@ -49,8 +49,11 @@ _WRENCH = "ground on {} foot: [force; moment about the sole origin], world axes"
 class Ticks:
     """The arrays of a run, first axis time: row i is the state at `time[i]` and what it led to.
 
-    Measured values are read from MuJoCo; those ending in `_ref` are what the plan asked for at the
-    same tick. World frame: z up. A sole frame has its origin at the centre of the sole, x towards
+    `q`, `v` and the forces are what the plant measures. `com`, `com_velocity`, `dcm`, the soles'
+    poses and `torso_tilt` follow from `q` and `v` by the robot's own model, as the controller has
+    them: where the physics carries something that the model does not know of, a payload say, the
+    CoM of the bodies is elsewhere. What ends in `_ref` is what the plan asked for at the same tick.
+    World frame: z up. A sole frame has its origin at the centre of the sole, x towards
     the toes, z up. Floats that a run did not write are nan, integers -1.
     """
 
@@ -63,9 +66,9 @@ class Ticks:
     )
     tau: Array = _array("nu", unit="N·m", doc="joint torques sent, in the order of v[6:]")
 
-    com: Array = _array(3, unit="m", doc="centre of mass (CoM), world")
+    com: Array = _array(3, unit="m", doc="centre of mass (CoM) of the robot's model at q, world")
     com_ref: Array = _array(3, unit="m", doc="CoM reference")
-    com_velocity: Array = _array(3, unit="m/s", doc="CoM velocity")
+    com_velocity: Array = _array(3, unit="m/s", doc="its velocity, of the model at q and v")
     com_velocity_ref: Array = _array(3, unit="m/s", doc="CoM velocity reference")
     com_acceleration_ref: Array = _array(3, unit="m/s²", doc="CoM acceleration reference")
     dcm: Array = _array(2, unit="m", doc="divergent component of motion, com + velocity / omega")

@@ -8,7 +8,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from preview_walk.arguments import shown
 from preview_walk.errors import RobotError
+from preview_walk.files import as_path
 from preview_walk.robots.building.rebuild import rebuild
 from preview_walk.robots.load import load_robot
 from preview_walk.robots.picture import write_picture
@@ -67,10 +69,12 @@ class Inspection:
 
         Raises:
             RobotError: the model cannot stand.
+            InvalidInput: the path is none, or does not end in .png.
+            OutputError: the file cannot be written.
         """
         if self.robot is None:
-            raise RobotError(f"no picture of '{self.source}': {self.problems[0]}")
-        write_picture(self.robot, Path(path))
+            raise RobotError(f"no picture of '{self.source}': {self.problems[0]}", "model")
+        write_picture(self.robot, as_path(path))
 
 
 def inspect_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Inspection:
@@ -79,11 +83,13 @@ def inspect_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Inspect
     Args:
         model: what `load_robot` takes.
     """
-    source = str(model) if isinstance(model, (str, Path)) else "the model in hand"
+    in_hand = isinstance(model, (mujoco.MjModel, mujoco.MjSpec))
+    source = "the model in hand" if in_hand else shown(model).strip("'")
     try:
         robot = load_robot(model)
     except RobotError as error:
-        return Inspection(source, _contents(model), (), (), (str(error),), None)
+        found = _contents(model) if in_hand or isinstance(model, (str, Path)) else ()
+        return Inspection(source, found, (), (), (str(error),), None)
     return Inspection(
         source, _found(robot), robot.notes, _missing(robot), problems_of(robot), robot
     )

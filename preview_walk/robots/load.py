@@ -8,7 +8,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from preview_walk.errors import RobotError
+from preview_walk.errors import RobotError, about
 from preview_walk.robots.building.assemble import assemble
 from preview_walk.robots.building.build import build_robot
 from preview_walk.robots.building.rebuild import rebuild
@@ -30,15 +30,11 @@ def load_robot(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
     Raises:
         RobotError: an unknown name, or a model that cannot walk; says what is in the way.
     """
-    try:
+    with about("model"):
         return _load(model)
-    except RobotError as error:
-        error.argument = error.argument or "model"
-        raise
 
 
-def _load(model: str | Path | mujoco.MjModel | mujoco.MjSpec) -> Robot:
-    """Return a robot; whatever is wrong is wrong with the model."""
+def _load(model: object) -> Robot:
     if isinstance(model, mujoco.MjSpec):
         model, notes = compile_spec(model.copy(), "the spec")
         return build_robot(_in_hand(model), replace(read_source(model), notes=notes))

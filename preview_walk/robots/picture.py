@@ -8,6 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from preview_walk.errors import InvalidInput
+from preview_walk.files import short, whole_file
 from preview_walk.offscreen import off_screen
 from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
@@ -65,8 +67,15 @@ def write_picture(robot: Robot, path: Path) -> None:
     Args:
         robot: the robot.
         path: the .png file to write.
+
+    Raises:
+        InvalidInput: the name does not end in .png.
+        OutputError: the file cannot be written.
     """
     from matplotlib.image import imsave
 
+    if path.suffix.lower() != ".png":
+        raise InvalidInput(f"a picture's file name must end in .png, got '{short(path)}'.", "path")
     views = [stance_image(robot, azimuth=azimuth) for azimuth in (145.0, 270.0)]
-    imsave(path, np.hstack(views))
+    with whole_file(path) as part:
+        imsave(part, np.hstack(views))

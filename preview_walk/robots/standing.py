@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 
+from preview_walk.arguments import as_number, instance_of, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.geometry.poses import as_pose, midfeet, pose_at
 from preview_walk.pattern.com_height import LONGEST_STRETCH, LOWEST_HIPS
@@ -41,6 +42,7 @@ def standing_configuration(robot: Robot, left: Array, right: Array) -> Array:
     Raises:
         InvalidInput: a pose that is none, or soles that the legs cannot reach.
     """
+    instance_of(robot, Robot, "robot")
     model, stance = robot.pin, stance_of(robot)
     soles = dict(zip(FEET, (as_pose(left, "left"), as_pose(right, "right")), strict=True))
     targets = {foot: pin.SE3(np.array(pose)) for foot, pose in soles.items()}
@@ -87,6 +89,7 @@ def at_com_height(robot: Robot, com_height: float) -> Robot:
     Raises:
         InvalidInput: a height that asks for a locked knee or a squat.
     """
+    instance_of(robot, Robot, "robot")
     data = robot.pin.createData()
     pin.framesForwardKinematics(robot.pin, data, robot.posture)
     hip = float(data.oMi[robot.legs["left"].hip].translation[2])
@@ -94,19 +97,16 @@ def at_com_height(robot: Robot, com_height: float) -> Robot:
         robot.com_height + share * robot.leg_length - hip
         for share in (LOWEST_HIPS, LONGEST_STRETCH)
     )
-    try:
-        fits = low <= float(com_height) <= high
-    except (TypeError, ValueError, OverflowError):  # not a number at all
-        fits = False
-    if not fits:
+    wanted = as_number(com_height)
+    if not low <= wanted <= high:
         raise InvalidInput(
             f"com_height must be between {low:.3f} and {high:.3f} m for the legs of {robot.name}, "
-            f"got {com_height}.",
+            f"got {shown(com_height)}.",
             argument="com_height",
         )
     stance, posture, height = stance_of(robot), robot.posture, robot.com_height
-    while abs(height - com_height) > 1e-9:
-        hip += com_height - height
+    while abs(height - wanted) > 1e-9:
+        hip += wanted - height
         posture = walking_posture(stance, posture, hip / robot.leg_length)
         height = float(pin.centerOfMass(robot.pin, data, posture)[2])
     return replace(robot, posture=posture, com_height=height)

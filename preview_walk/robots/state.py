@@ -27,7 +27,8 @@ def to_pinocchio(qpos: Array, qvel: Array, q: Array, v: Array) -> None:
     """
     q[:] = qpos
     w, x, y, z = qpos[3:7].tolist()
-    norm = 1.0 / (w * w + x * x + y * y + z * z) ** 0.5
+    length = (w * w + x * x + y * y + z * z) ** 0.5
+    norm = 1.0 / length if length else 0.0  # zeros stay zeros: no orientation
     w, x, y, z = w * norm, x * norm, y * norm, z * norm
     q[3], q[4], q[5], q[6] = x, y, z, w
     v[:] = qvel

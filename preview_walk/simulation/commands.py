@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 
 import numpy as np
 
+from preview_walk.arguments import MOST, positive_number, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
@@ -59,7 +61,8 @@ class VelocityCommands:
     def give(self, t: float, command: Command) -> None:
         """Put a command in force at time t (s); raises `InvalidInput` for one that cannot be."""
         saturated(command, self._limits)
-        self.current, self._due = command, t
+        vx, vy, wz = (float(speed) for speed in command)
+        self.current, self._due = (vx, vy, wz), t
 
     def schedule(self, t: float, commands: Sequence[tuple[Command, float]]) -> None:
         """Put these commands in force one after the other from time t (s) on, then stop.
@@ -72,11 +75,8 @@ class VelocityCommands:
             InvalidInput: a command that cannot be, or a duration that is not > 0.
         """
         later = []
-        for command, duration in commands:
-            if not (np.isfinite(duration) and duration > 0.0):
-                raise InvalidInput(
-                    f"duration must be finite and > 0 s, got {duration}.", "duration"
-                )
+        for command, given in _pairs(commands):
+            duration = positive_number(given, "duration", "s")
             saturated(command, self._limits)
             later.append((t, command))
             t += duration
@@ -98,3 +98,17 @@ class VelocityCommands:
         going = any(self.current)
         self._due = (t if lift is None else lift.lift) + 0.5 * self._dt if going else np.inf
         return None if new is plan else new
+
+
+def _pairs(commands: Sequence[tuple[Command, float]]) -> list[tuple[Command, float]]:
+    """Return the pairs of a command and its duration that somebody gives, unread."""
+    try:
+        pairs = [(command, duration) for command, duration in islice(commands, MOST + 1)]
+    except (TypeError, ValueError):
+        raise InvalidInput(
+            f"commands must hold pairs ((vx, vy, yaw rate), duration), got {shown(commands)}.",
+            "commands",
+        ) from None
+    if len(pairs) > MOST:
+        raise InvalidInput(f"commands must hold at most {MOST} pairs, got more.", "commands")
+    return pairs

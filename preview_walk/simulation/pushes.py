@@ -4,16 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, isfinite, pi, sin
+from math import cos, pi, sin
 
 import mujoco
 import numpy as np
 
+from preview_walk.arguments import (
+    LARGEST,
+    LARGEST_SEED,
+    MOST,
+    count_of,
+    finite_number,
+    items_of,
+    number_from_zero,
+    positive_number,
+    real_array,
+    shown,
+)
 from preview_walk.errors import InvalidInput
 from preview_walk.types import Array
 
 ROUNDING = 1e-9
 """The simulation's clock, a sum of many steps, may be off by this much (s)."""
+
+LARGEST_FORCE = 1e5
+"""Newtons along each axis: ten tonnes, which throw any robot; what is more is a slip, and beyond
+1e8 N MuJoCo's numbers end."""
 
 
 @dataclass(frozen=True)
@@ -37,17 +53,30 @@ class Push:
     point: tuple[float, float, float] | None = None
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
-        if not (isfinite(self.t) and self.t >= 0.0):
-            raise InvalidInput(f"a push must begin at a time >= 0 s, got {self.t}.")
-        if not (isfinite(self.duration) and self.duration > 0.0):
-            raise InvalidInput(f"a push must last > 0 s, got {self.duration}.")
-        for name in ("force", "point"):
-            vector = getattr(self, name)
-            if vector is None and name == "point":
-                continue
-            if len(vector) != 3 or not all(isfinite(x) for x in vector):
-                raise InvalidInput(f"the {name} of a push must be three finite numbers.")
+        """Check the values, and take them as plain numbers."""
+        taken: dict[str, object] = {
+            "t": number_from_zero(self.t, "t", "s"),
+            "duration": positive_number(self.duration, "duration", "s"),
+            "force": _three(self.force, "force", LARGEST_FORCE, "N"),
+        }
+        if self.point is not None:
+            taken["point"] = _three(self.point, "point", LARGEST, "m")
+        if self.body is not None and not isinstance(self.body, str):
+            raise InvalidInput(
+                f"body must be the name of one or None, got {shown(self.body)}.", argument="body"
+            )
+        for name, value in taken.items():
+            object.__setattr__(self, name, value)
+
+
+def _three(value: object, name: str, most: float, unit: str) -> tuple[float, float, float]:
+    """Return the three numbers of a vector, each within `most`."""
+    form = f"three numbers between {-most:g} and {most:g} {unit}"
+    numbers = real_array(value, name, form)
+    if numbers.shape != (3,) or not np.abs(numbers).max() <= most:
+        raise InvalidInput(f"{name} must be {form}, got {shown(value)}.", argument=name)
+    x, y, z = numbers.tolist()
+    return x, y, z
 
 
 def random_pushes(
@@ -63,19 +92,32 @@ def random_pushes(
         seed: the same seed gives the same pushes.
 
     Raises:
-        InvalidInput: a number that is not finite and > 0, or pushes longer than `every`.
+        InvalidInput: a number that is not finite and > 0, pushes longer than `every`, a force
+            beyond `LARGEST_FORCE`, or more than `MOST` pushes.
     """
-    for name, value in (("every", every), ("impulse", impulse), ("duration", duration)):
-        if not (isfinite(value) and value > 0.0):
-            raise InvalidInput(f"{name} must be finite and > 0, got {value}.")
-    if not isfinite(until):
-        raise InvalidInput(f"until must be finite (s), got {until}.")
+    every, impulse = (
+        positive_number(every, "every", "s"),
+        positive_number(impulse, "impulse", "N·s"),
+    )
+    duration, until = positive_number(duration, "duration", "s"), finite_number(until, "until", "s")
     if duration > every:
         raise InvalidInput(
-            f"every must be at least the duration of a push, {duration} s, got {every} s."
+            f"every must be at least the duration of a push, {duration} s, got {every} s.",
+            argument="every",
         )
-    random = np.random.default_rng(seed)
+    if until > MOST * every:
+        raise InvalidInput(
+            f"every must be at least {until / MOST:g} s, for {MOST} pushes at most, got {every} s.",
+            argument="every",
+        )
     force = impulse / duration
+    if force > LARGEST_FORCE:
+        raise InvalidInput(
+            f"impulse must be at most {LARGEST_FORCE * duration:g} N·s in {duration} s, "
+            f"got {impulse}.",
+            argument="impulse",
+        )
+    random = np.random.default_rng(count_of(seed, "seed", LARGEST_SEED))
     pushes = []
     number = 1
     while number * every < until:
@@ -106,7 +148,7 @@ class Pusher:
         """
         self._model = model
         self._pushes = []
-        for push in pushes:
+        for push in items_of(pushes, Push, "pushes"):
             body = base_of(model) if base is None else base
             if push.body is not None:
                 body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from preview_walk.arguments import SMALLEST, finite_number
 from preview_walk.errors import InvalidInput
 from preview_walk.tracking.gains import TrackingGains
 
@@ -21,7 +22,9 @@ def steps_per_tick(physics_hz: float, control_hz: float) -> int:
         InvalidInput: a rate is not positive, or physics does not make a whole number of steps in a
             tick.
     """
-    steps = round(physics_hz / control_hz) if min(physics_hz, control_hz) > 0.0 else 0
+    physics_hz = finite_number(physics_hz, "physics_hz", "per second")
+    control_hz = finite_number(control_hz, "control_hz", "per second")
+    steps = round(physics_hz / control_hz) if min(physics_hz, control_hz) >= SMALLEST else 0
     if steps < 1 or abs(steps * control_hz / physics_hz - 1.0) > 1e-9:
         raise InvalidInput(
             "physics_hz must be a positive multiple of control_hz, "

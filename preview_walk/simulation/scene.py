@@ -9,8 +9,9 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
+from preview_walk.arguments import instance_of, items_of, positive_number
 from preview_walk.constants import GRAVITY
-from preview_walk.errors import RobotError
+from preview_walk.errors import InvalidInput, RobotError, about
 from preview_walk.robots.finding.constraints import holding_constraints
 from preview_walk.robots.finding.tree import Tree
 from preview_walk.robots.robot import Robot
@@ -58,10 +59,27 @@ class Scene:
                 or actuators or a base that cannot be driven so.
             InvalidInput: a push on an unknown body.
         """
-        self.robot = robot
-        self.model, self.data = model, data
+        self.robot = instance_of(robot, Robot, "robot")
+        self.model = instance_of(model, mujoco.MjModel, "model")
+        self.data = instance_of(data, mujoco.MjData, "data")
+        if data.model is not model:
+            raise InvalidInput("data must be made of the model, got that of another.", "data")
+        self.pushes = tuple(items_of(pushes, Push, "pushes"))
+        with about("model"):
+            self._find()
+        self.q: Array = np.array(robot.posture)
+        self.v: Array = np.zeros(robot.pin.nv)
+        self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
+        self.push: Array = np.zeros(3)
+        self._pusher = Pusher(model, self.pushes, robot.blueprint.parts.base)
+        self._since = 0.0  # the walk's time less the scene's own
+        self._kinematics = robot.pin.createData()
+
+    def _find(self) -> None:
+        """Find base, joints, floor and actuators in the model."""
+        robot, model = self.robot, self.model
         tree, base = Tree(model), robot.blueprint.parts.base
-        root = int(model.body_jntadr[base])
+        root = int(model.body_jntadr[base]) if base < model.nbody else -1
         if root < 0 or int(model.jnt_type[root]) != _FREE:
             raise RobotError(f"the base '{tree.name(base)}' must have a free joint to walk with")
         held = holding_constraints(tree, base)
@@ -72,6 +90,8 @@ class Scene:
                 f"gravity must be (0, 0, -{GRAVITY}) m/s^2, got {model.opt.gravity.tolist()}"
             )
         ids = {tree.joint_name(joint): joint for joint in range(model.njnt)}
+        if missing := [name for name in robot.joint_names if name not in ids]:
+            raise RobotError(f"the model has no joint '{missing[0]}' of the robot {robot.name}")
         joints = np.array([ids[name] for name in robot.joint_names])
         first, dof = int(model.jnt_qposadr[root]), int(model.jnt_dofadr[root])
         self._qpos = np.concatenate([np.arange(first, first + 7), model.jnt_qposadr[joints]])
@@ -80,17 +100,9 @@ class Scene:
         floor, friction = _floor(tree, self._feet)
         self.friction = min(FRICTION, friction)
         self.ground: Ground = FlatGround(floor)
-        self.timestep = float(model.opt.timestep)
+        self.timestep = positive_number(model.opt.timestep, "the model's timestep", "s")
         self._gain, self._actuator = _actuators(tree, joints)
         self._driven = self._actuator >= 0
-        self.q: Array = np.array(robot.posture)
-        self.v: Array = np.zeros(robot.pin.nv)
-        self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
-        self.push: Array = np.zeros(3)
-        self.pushes = tuple(pushes)
-        self._pusher = Pusher(model, pushes, base)
-        self._since = 0.0  # the walk's time less the scene's own
-        self._kinematics = robot.pin.createData()
 
     def __repr__(self) -> str:
         return f"Scene({self.robot.name}, {1.0 / self.timestep:g} Hz, friction {self.friction:g})"

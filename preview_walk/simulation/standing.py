@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
@@ -13,6 +14,9 @@ from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import at_com_height
 from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.world import World
+
+_PLANT = ("robot", *sorted(name for name in vars(Plant) if not name.startswith("_")))
+"""What a plant has."""
 
 
 def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) -> Plant:
@@ -27,6 +31,7 @@ def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) ->
         InvalidInput: a setting that cannot be, or that a plant has already.
     """
     given = {name: value for name, value in settings.items() if value is not None}
+    require_plant(robot)
     if isinstance(robot, Robot):
         body = robot if com_height is None else at_com_height(robot, com_height)
         return World(body, **given)
@@ -38,6 +43,15 @@ def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) ->
     return robot
 
 
+def require_plant(robot: object) -> None:
+    """Raise `InvalidInput` unless this is a robot or has all that a plant has."""
+    lacking = [name for name in _PLANT if not hasattr(robot, name)]
+    if not isinstance(robot, Robot) and lacking:
+        raise InvalidInput(
+            f"robot must be a Robot or a Plant, got {shown(robot)}, without {lacking[0]}.", "robot"
+        )
+
+
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:
     """Return the plan of a robot that stands as wide as in its posture, on the ground.
 
@@ -45,6 +59,7 @@ def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:
         robot: a robot, on ground of height 0, or a plant with its own.
         start: x, y[, yaw] of the middle of the feet, m, rad.
     """
+    require_plant(robot)
     x, y, yaw = as_heading(start, "start")
     if isinstance(robot, Robot):
         width, z = robot.step_width, 0.0

@@ -6,8 +6,13 @@ from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
+from preview_walk.arguments import (
+    LARGEST_SEED,
+    count_of,
+    finite_number,
+    function_of,
+    instance_of,
+)
 from preview_walk.controller.robot_limits import command_limits
 from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
@@ -103,7 +108,8 @@ class Walk:
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
         self.plant = plant_of(robot, com_height, **own)
         self.robot = self.plant.robot
-        gains = TrackingGains() if gains is None else gains
+        gains = TrackingGains() if gains is None else instance_of(gains, TrackingGains, "gains")
+        seed = count_of(seed, "seed", LARGEST_SEED)
         rate = 1.0 / self.plant.timestep
         self._substeps = steps_per_tick(rate, control_hz)
         require_rates(rate, control_hz, gains)
@@ -122,7 +128,7 @@ class Walk:
         )
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
-        self._on_tick = on_tick
+        self._on_tick = function_of(on_tick, "on_tick")
         self._requests = Requests()
         self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
         self._fall: tuple[float, str] | None = None
@@ -200,6 +206,8 @@ class Walk:
         Raises:
             InvalidInput: a number is not finite, or the robot has fallen.
         """
+        vx, vy = finite_number(vx, "vx", "m/s"), finite_number(vy, "vy", "m/s")
+        wz = finite_number(wz, "wz", "rad/s")
 
         def give() -> None:
             self._commands.give(self.time, (vx, vy, wz))
@@ -242,10 +250,10 @@ class Walk:
             progress: called now and then with the simulated time and its end (s).
 
         Raises:
-            InvalidInput: no `until`, or nan, while a command is in force: a walk for ever.
+            InvalidInput: `until` is no finite time, or None while a command is in force.
         """
-        if until is not None and np.isnan(until):
-            raise InvalidInput(f"until must be a time in s, got {until}.", "until")
+        until = None if until is None else finite_number(until, "until", "s")
+        progress = function_of(progress, "progress")
         if until is None:
             self._commands.require_end()
         try:

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from preview_walk.errors import InvalidInput
+from preview_walk.arguments import instance_of, items_of, number_within
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
 from preview_walk.robots.load import visual_model
@@ -24,6 +24,12 @@ FRICTION = 0.8
 
 PHYSICS_HZ = 1000
 """Default steps of the physics per second."""
+
+MAX_PHYSICS_HZ = 1e5
+"""Most steps of the physics per second: beyond it a second of walking takes minutes."""
+
+MAX_FRICTION = 10.0
+"""Largest Coulomb friction: racing tyres have 2; far beyond it the friction cone is no cone."""
 
 SLIP_RATIO = 10.0
 """MuJoCo's `impratio`: with its default of 1 a loaded sole creeps 5 mm a step over dry floor."""
@@ -59,25 +65,24 @@ class World:
             InvalidInput: a rate or friction that is not finite and > 0, or a push on an unknown
                 body.
         """
-        for name, value in (("physics_hz", physics_hz), ("friction", friction)):
-            if not (np.isfinite(value) and value > 0.0):
-                raise InvalidInput(f"{name} must be > 0, got {value}.", name)
+        instance_of(robot, Robot, "robot")
+        rate = number_within(physics_hz, "physics_hz", 1, MAX_PHYSICS_HZ, "per second")
         self.robot = robot
-        self.friction = friction
+        self.friction = number_within(friction, "friction", 1e-3, MAX_FRICTION)
         self.ground: Ground = FlatGround()
-        self.timestep = 1.0 / physics_hz
-        self.model = copy.copy(visual_model(robot) if visuals else robot.mj)
+        self.timestep = 1.0 / rate
+        self.model = copy.copy(visual_model(robot) if visuals is True else robot.mj)
         self.model.opt.timestep = self.timestep
         self.model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         self.model.opt.impratio = SLIP_RATIO
-        self.model.geom_friction[:, 0] = friction
+        self.model.geom_friction[:, 0] = self.friction
         self.data = mujoco.MjData(self.model)
         self.q: Array = np.array(robot.posture)
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
-        self.pushes = tuple(pushes)
-        self._pusher = Pusher(self.model, pushes)
+        self.pushes = tuple(items_of(pushes, Push, "pushes"))
+        self._pusher = Pusher(self.model, self.pushes)
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]
         self._motor_joint = self.model.jnt_dofadr[joints] - 6

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from math import isfinite
 
-from preview_walk.errors import InvalidInput
+from preview_walk.arguments import number_from_zero, positive_number
 
 
 @dataclass(frozen=True)
@@ -49,13 +48,8 @@ class TrackingGains:
     wrench_weight: float = 1e-3
 
     def __post_init__(self) -> None:
-        """Check the values."""
+        """Check the values, and take them as plain numbers."""
         for gain in fields(self):
-            value, least = getattr(self, gain.name), 0.0
-            real = isinstance(value, int | float) and not isinstance(value, bool)
-            optional = gain.name == "momentum_weight"
-            if not (real and isfinite(value) and (value > least or (optional and value == least))):
-                allowed = ">= 0" if optional else "> 0"
-                raise InvalidInput(
-                    f"{gain.name} must be finite and {allowed}, got {value!r}.", gain.name
-                )
+            read = number_from_zero if gain.name == "momentum_weight" else positive_number
+            unit = "" if "weight" in gain.name else "rad/s"
+            object.__setattr__(self, gain.name, read(getattr(self, gain.name), gain.name, unit))

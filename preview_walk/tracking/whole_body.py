@@ -10,15 +10,18 @@ from typing import Any
 import numpy as np
 import qpsolvers
 
+from preview_walk.arguments import instance_of, positive_number, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.building.leg import leg_joints
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.contacts import load_shares
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
+from preview_walk.tracking.measured import check_state
+from preview_walk.tracking.qp.answer import flaw
 from preview_walk.tracking.qp.problem import TickProblem
-from preview_walk.tracking.qp.safety import Fallback, QPFailure, check_state
-from preview_walk.tracking.qp.solvers import DEFAULT, Backend, Solution, make_backend
+from preview_walk.tracking.qp.safety import Fallback, QPFailure
+from preview_walk.tracking.qp.solvers import DEFAULT, Backend, OsqpBackend, Solution, make_backend
 from preview_walk.tracking.tasks import (
     AngularMomentumTask,
     CoMTask,
@@ -74,9 +77,11 @@ class WholeBodyController:
         Raises:
             InvalidInput: there is no such solver.
         """
-        self.robot = robot
-        self.gains = gains
-        self.friction = friction
+        self.robot = instance_of(robot, Robot, "robot")
+        self.gains = instance_of(gains, TrackingGains, "gains")
+        self.friction = positive_number(friction, "friction")
+        if not isinstance(solver, str) or len(solver) > 80:
+            raise InvalidInput(f"solver must be a short name, got {shown(solver)}.", "solver")
         self.backend: Backend = make_backend(solver)
         self.dynamics = Dynamics(robot)
         self.com = CoMTask(gains.com_weight)
@@ -141,7 +146,7 @@ class WholeBodyController:
             v: (nv,) velocity, Pinocchio's conventions.
 
         Raises:
-            StateError: it is not finite.
+            StateError: it cannot be: not finite, no unit quaternion, faster than sound.
         """
         start = perf_counter()
         check_state(q, v, self.robot)
@@ -210,21 +215,18 @@ class WholeBodyController:
 
     def _solve(self, problem: TickProblem) -> Solution:
         """Return the backend's solution, or what stands in for it."""
-        solution, cause = None, None
+        solution, cause, why = None, None, None
         try:
             solution = self.backend.solve(problem)
-        except Exception as error:  # whatever a solver may raise, the robot needs torques now
-            cause = error
-        if solution is not None and solution.solved and _finite(solution):
+            why = flaw(problem, solution, isinstance(self.backend, OsqpBackend))
+        # Whatever a solver may raise, even an exit from the program, the robot needs torques now.
+        except (Exception, SystemExit) as error:
+            cause, why = error, str(error) or type(error).__name__
+        if why is None and solution is not None:
             self._fallback.solved(problem, solution)
             return solution
-        self.failure = QPFailure(problem.build(), solution, cause)
+        self.failure = QPFailure(problem.build(), solution, cause, str(why))
         return self._fallback.solution(problem, self.dynamics)
-
-
-def _finite(solution: Solution) -> bool:
-    total = solution.torques.sum() + solution.wrench.sum()
-    return bool(-np.inf < total < np.inf)
 
 
 def _posture_task(robot: Robot, gains: TrackingGains) -> PostureTask:

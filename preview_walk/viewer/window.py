@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import mujoco.viewer
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.simulation.pushes import base_of
 from preview_walk.simulation.scene import Scene
@@ -24,9 +25,10 @@ def run_in_viewer(walk: Walk, progress: Progress | None = None) -> None:
 
     Double-click a body and drag with Ctrl and the right button to push it.
     """
+    if not isinstance(getattr(walk, "plant", None), World | Scene):
+        raise InvalidInput(f"a live window needs a walk in MuJoCo, got {shown(walk)}.", "walk")
     world = walk.plant
-    if not isinstance(world, World | Scene):
-        raise InvalidInput(f"a live window needs a walk in MuJoCo, got a {type(world).__name__}.")
+    assert isinstance(world, World | Scene)
     with mujoco.viewer.launch_passive(world.model, world.data) as window:
         body = base_of(world.model)
         window.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING

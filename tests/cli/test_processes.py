@@ -239,3 +239,20 @@ def test_rates_at_which_nothing_balances_are_refused(tmp_path: Path) -> None:
         assert done.returncode == 2
         assert done.stderr.startswith(b"preview-walk: " + sentence), done.stderr
         assert len(done.stderr.splitlines()) == 1
+
+
+def test_two_runs_in_one_folder(start: Start, tmp_path: Path) -> None:
+    """The second is told at once; after the end of the first, even a violent one, it is free."""
+    first = start("--no-plots", ticks=3000)
+    wait_for(first, b"tick")
+    second = start("--no-plots")
+    _, errors = second.communicate(timeout=60)
+    assert second.returncode == 2
+    assert errors == (
+        b"preview-walk: --out: another run is about to write to the folder walk; "
+        b"choose a folder that can be written, with space left.\n"
+    )
+    first.kill()
+    first.communicate(timeout=60)
+    assert start("--no-plots").wait(60) == 0
+    assert files(tmp_path / "walk") == {"record.npz", "summary.json"}

@@ -82,18 +82,21 @@ def test_without_a_body_the_base_is_pushed(talos: Robot) -> None:
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ((-0.1, 0.2, (1, 0, 0)), "a push must begin at a time >= 0 s, got -0.1."),
-        ((float("nan"), 0.2, (1, 0, 0)), "a push must begin at a time >= 0 s, got nan."),
-        ((0.0, 0.0, (1, 0, 0)), "a push must last > 0 s, got 0.0."),
-        ((0.0, float("inf"), (1, 0, 0)), "a push must last > 0 s, got inf."),
-        ((0.0, 0.2, (1, 0)), "the force of a push must be three finite numbers."),
+        ((-0.1, 0.2, (1, 0, 0)), "t must be >= 0 s, got -0.1."),
+        ((float("nan"), 0.2, (1, 0, 0)), "t must be >= 0 s, got nan."),
+        ((0.0, 0.0, (1, 0, 0)), "duration must be > 0 s, got 0.0."),
+        ((0.0, float("inf"), (1, 0, 0)), "duration must be > 0 s, got inf."),
+        (
+            (0.0, 0.2, (1, 0)),
+            "force must be three numbers between -100000 and 100000 N, got (1, 0).",
+        ),
         (
             (0.0, 0.2, (1, 0, float("inf"))),
-            "the force of a push must be three finite numbers.",
+            "force must be three numbers between -100000 and 100000 N, got (1, 0, inf).",
         ),
         (
             (0.0, 0.2, (1, 0, 0), None, (0, 0)),
-            "the point of a push must be three finite numbers.",
+            "point must be three numbers between -1e+09 and 1e+09 m, got (0, 0).",
         ),
     ],
 )

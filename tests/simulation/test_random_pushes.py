@@ -36,9 +36,9 @@ def test_directions_are_uniform() -> None:
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ((0.0, 1.0, 0.2, 9.0), "every must be finite and > 0, got 0.0."),
-        ((1.0, np.inf, 0.2, 9.0), "impulse must be finite and > 0, got inf."),
-        ((1.0, 1.0, -0.2, 9.0), "duration must be finite and > 0, got -0.2."),
+        ((0.0, 1.0, 0.2, 9.0), "every must be > 0 s, got 0.0."),
+        ((1.0, np.inf, 0.2, 9.0), "impulse must be > 0 N·s, got inf."),
+        ((1.0, 1.0, -0.2, 9.0), "duration must be > 0 s, got -0.2."),
         ((1.0, 1.0, 0.2, np.nan), "until must be finite (s), got nan."),
         ((0.1, 1.0, 0.2, 9.0), "every must be at least the duration of a push, 0.2 s, got 0.1 s."),
     ],

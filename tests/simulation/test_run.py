@@ -140,15 +140,15 @@ def test_the_record_knows_what_the_run_was_made_of(talos: Robot, short_plan: Foo
 @pytest.mark.parametrize(
     ("settings", "sentence"),
     [
-        ({"friction": 0.0}, "friction must be > 0, got 0.0."),
-        ({"friction": float("nan")}, "friction must be > 0, got nan."),
+        ({"friction": 0.0}, "friction must be between 0.001 and 10, got 0.0."),
+        ({"friction": float("nan")}, "friction must be between 0.001 and 10, got nan."),
         (
             {"physics_hz": 1000, "control_hz": 300},
             "physics_hz must be a positive multiple of control_hz, got 1000 and 300.",
         ),
         (
             {"physics_hz": 0, "control_hz": 500},
-            "physics_hz must be > 0, got 0.",
+            "physics_hz must be between 1 and 100000 per second, got 0.",
         ),
     ],
 )

@@ -1,4 +1,4 @@
-"""What the controller does when a QP is not solved, and when the measured state cannot be.
+"""What the controller does when a QP is not solved.
 
 Never without an answer, in this order:
 
@@ -6,8 +6,6 @@ Never without an answer, in this order:
 - 1, `LAST_SOLUTION`: the accelerations and wrenches of the last solution, put into the dynamics of
   this tick, for at most `STALE_TICKS` ticks in a row.
 - 2, `DAMPED_POSTURE`: joints brake and are held where they were, soles in contact carry the weight.
-
-A measured state that is not finite has no safe answer: `StateError` stops the walk.
 """
 
 from __future__ import annotations
@@ -18,7 +16,6 @@ import numpy as np
 import qpsolvers
 
 from preview_walk.errors import PreviewWalkError
-from preview_walk.robots.robot import Robot
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.qp.problem import (
     BASE_WEIGHT,
@@ -40,48 +37,32 @@ HOLD = 10.0
 """Frequency (rad/s), critically damped, at which the damped posture holds the joints."""
 
 
-class StateError(PreviewWalkError):
-    """The measured state is not finite."""
-
-
 class QPFailure(PreviewWalkError):
     """Evidence of a tick whose QP was not solved.
 
     Attributes:
         problem: the QP, as a `qpsolvers.Problem`.
-        solution: what the backend returned; None where it raised.
+        solution: what the backend returned, which may be anything; None where it raised.
         cause: what it raised, or None.
+        why: what is wrong with them, in words.
     """
 
     def __init__(
-        self, problem: qpsolvers.Problem, solution: Solution | None, cause: Exception | None
+        self,
+        problem: qpsolvers.Problem,
+        solution: Any,
+        cause: BaseException | None,
+        why: str,
     ) -> None:
         self.problem = problem
         self.solution = solution
         self.cause = cause
-        why = cause if solution is None else solution.status
+        self.why = why
         super().__init__(f"the QP of a tick was not solved: {why}.")
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Make it again from its evidence."""
-        return type(self), (self.problem, self.solution, self.cause)
-
-
-def check_state(q: Array, v: Array, robot: Robot) -> None:
-    """Raise `StateError` unless q (nq,) and v (nv,) are finite."""
-    if q @ q + v @ v < np.inf:  # false for any nan or inf
-        return
-    for values, kind in ((q, "position"), (v, "velocity")):
-        bad = np.flatnonzero(~np.isfinite(values))
-        if bad.size:
-            names = robot.joint_names
-            joint = int(bad[0]) - (len(values) - len(names))
-            where = f"joint '{names[joint]}'" if joint >= 0 else "the base"
-            raise StateError(
-                f"the measured state must be finite, got {values[bad[0]]} "
-                f"for the {kind} of {where}."
-            )
-    raise StateError(f"the measured state must be finite, got speeds up to {abs(v).max():.3g}.")
+        return type(self), (self.problem, self.solution, self.cause, self.why)
 
 
 class Fallback:

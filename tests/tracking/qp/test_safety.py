@@ -1,10 +1,9 @@
-import re
-
 import numpy as np
 import pytest
 import qpsolvers
-from tracking.states import full_load, random_state, standing_controller
+from tracking.states import full_load, standing_controller
 
+import preview_walk as pw
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.qp.safety import (
@@ -13,10 +12,8 @@ from preview_walk.tracking.qp.safety import (
     SOLVED,
     STALE_TICKS,
     QPFailure,
-    StateError,
 )
 from preview_walk.tracking.qp.solvers import Backend, Solution
-from preview_walk.types import Array
 
 
 class Broken:
@@ -104,23 +101,37 @@ def test_nan_in_a_reference_falls_back(talos: Robot, solver: str) -> None:
     assert np.isfinite(torques).all()
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_measured_state_that_is_not_finite_stops_clearly(talos: Robot, value: float) -> None:
+@pytest.mark.parametrize("end", [SystemExit(3), RecursionError(), MemoryError()])
+def test_an_exit_inside_a_solver_is_a_failure_of_the_solver(
+    talos: Robot, end: BaseException
+) -> None:
+    class Leaves:
+        def solve(self, problem: TickProblem) -> Solution:
+            raise end
+
     body = standing_controller(talos)
-    q, v = random_state(talos, 0)
-    joint = talos.joint_names.index("leg_left_4_joint")
+    body.backend = Leaves()
+    torques = body.torques(full_load(talos))
+    assert body.status == DAMPED_POSTURE
+    assert np.isfinite(torques).all()
+    assert body.failure is not None
+    assert body.failure.cause is end
 
-    def spoilt(values: Array, index: int) -> Array:
-        values = values.copy()
-        values[index] = value
-        return values
 
-    said = f"the measured state must be finite, got {value} for the velocity of joint "
-    with pytest.raises(StateError, match=re.escape(said + "'leg_left_4_joint'.")):
-        body.update(q, spoilt(v, 6 + joint))
-    said = f"the measured state must be finite, got {value} for the position of joint "
-    with pytest.raises(StateError, match=re.escape(said + "'leg_left_4_joint'.")):
-        body.update(spoilt(q, 7 + joint), v)
-    said = f"the measured state must be finite, got {value} for the velocity of the base."
-    with pytest.raises(StateError, match=re.escape(said)):
-        body.update(q, spoilt(v, 2))
+def test_ctrl_c_inside_a_solver_ends_the_run_with_its_record(talos: Robot) -> None:
+    class Stopped:
+        def __init__(self, backend: Backend) -> None:
+            self.backend, self.ticks = backend, 0
+
+        def solve(self, problem: TickProblem) -> Solution:
+            self.ticks += 1
+            if self.ticks == 6:
+                raise KeyboardInterrupt
+            return self.backend.solve(problem)
+
+    walk = pw.Walk.standing(talos)
+    walk.walker.body.backend = Stopped(walk.walker.body.backend)
+    record = walk.run(until=1.0).record()
+    assert record.run.interrupted
+    assert not record.run.fell
+    assert len(record) == 5
