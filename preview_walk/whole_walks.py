@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
 from preview_walk.controller.robot_limits import gait_limits
+from preview_walk.footsteps.laying import lay_on
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
@@ -13,6 +14,7 @@ from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import Command
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.walk import Progress, Walk
+from preview_walk.terrain.ground import Ground
 from preview_walk.tracking.gains import TrackingGains
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ class Settings(TypedDict, total=False):
     solver: str
     swing_height: float | None
     com_height: float | None
+    ground: Ground | None
     on_tick: Callable[[Walk], None] | None
 
 
@@ -58,6 +61,9 @@ def simulate(
         InvalidInput: the plan has a step that the robot cannot make; and as `Walk` does.
     """
     plan = as_plan(plan)
+    ground = settings.get("ground")
+    if ground is not None:
+        plan = lay_on(plan, ground, robot.sole)
     require_walkable(plan, gait_limits(robot))
     return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
 

@@ -24,6 +24,7 @@ from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
 from preview_walk.simulation.standing import plant_of, standing_plan
+from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.types import FEET
@@ -71,6 +72,7 @@ class Walk:
         com_height: float | None = None,
         on_tick: Callable[[Walk], None] | None = None,
         visuals: bool | None = None,
+        ground: Ground | None = None,
     ) -> None:
         """Stand the robot on the plan's first soles.
 
@@ -91,6 +93,7 @@ class Walk:
                 walking posture.
             on_tick: called with the walk at the end of every tick, before the physics steps.
             visuals: run on the model with visual meshes, for the live viewer.
+            ground: what the robot stands on; None is level. A plan must lie on it (`lay_on`).
 
         Raises:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
@@ -98,7 +101,7 @@ class Walk:
         """
         plan = as_plan(plan)
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
-        self.plant = plant_of(robot, com_height, **own)
+        self.plant = plant_of(robot, com_height, ground=ground, **own)
         self.robot = self.plant.robot
         gains = TrackingGains() if gains is None else gains
         rate = 1.0 / self.plant.timestep
