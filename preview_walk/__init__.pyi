@@ -101,8 +101,21 @@ from .simulation.pushes import random_pushes as random_pushes
 from .simulation.plant import Plant as Plant
 from .simulation.world import World as World
 from .simulation.scene import Scene as Scene
+
+# The ground.
+from .footsteps.laying import lay_on as lay_on
 from .terrain.ground import FlatGround as FlatGround
 from .terrain.ground import Ground as Ground
+from .terrain.reading import read_ground as read_ground
+from .terrain.shapes import Piece as Piece
+from .terrain.shapes import blocks as blocks
+from .terrain.shapes import path as path
+from .terrain.shapes import ramps as ramps
+from .terrain.shapes import slope as slope
+from .terrain.shapes import stairs as stairs
+from .terrain.shapes import stepping_stones as stepping_stones
+from .terrain.slabs import Slab as Slab
+from .terrain.slabs import SlabGround as SlabGround
 
 # Records, figures, plots, films.
 from .record.record import Record as Record

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 from preview_walk.arguments import function_of
 from preview_walk.controller.robot_limits import gait_limits
+from preview_walk.footsteps.laying import lay_on
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
@@ -14,6 +15,7 @@ from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import Command
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.walk import Progress, Walk
+from preview_walk.terrain.ground import Ground
 from preview_walk.tracking.gains import TrackingGains
 
 if TYPE_CHECKING:
@@ -33,6 +35,7 @@ class Settings(TypedDict, total=False):
     swing_height: float | None
     com_height: float | None
     com_generator: str
+    ground: Ground | None
     on_tick: Callable[[Walk], None] | None
 
 
@@ -61,6 +64,9 @@ def simulate(
     """
     function_of(progress, "progress")
     plan = as_plan(plan)
+    ground = settings.get("ground")
+    if ground is not None:
+        plan = lay_on(plan, ground, robot.sole)
     require_walkable(plan, gait_limits(robot))
     return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.poses import pose_at, yaw_of
+from preview_walk.geometry.poses import pose_at, rpy_of, yaw_of
 from preview_walk.pattern.swing import Swing
 from preview_walk.types import FEET, Array, Foot
 
@@ -132,7 +132,8 @@ class Feet:
         for foot in FEET:
             load = normal_force[foot] / self._weight
             if step is not None and step.foot == foot:
-                if self._swing(t, step, soles[foot], load > CONTACT_FORCE):
+                stood = plan.start_pose(step)
+                if self._swing(t, step, soles[foot], stood, load > CONTACT_FORCE):
                     early = foot
                 continue
             target = self._stand(t, plan, foot, load > TOUCH_FORCE)
@@ -144,13 +145,19 @@ class Feet:
             self.targets[foot] = target
         return early
 
-    def _swing(self, t: float, step: Footstep, sole: Array, touching: bool) -> bool:
-        """Move a foot along its swing; return whether it has just touched down."""
+    def _swing(self, t: float, step: Footstep, sole: Array, stood: Array, touching: bool) -> bool:
+        """Move a foot along its swing; return whether it has just touched down.
+
+        `sole`: where it is measured; `stood`: where it lifts in the plan, poses (4, 4).
+        """
         state = self.states[step.foot]
         swing, contact, felt, since = state.swing, state.contact, state.felt, state.since
         if swing is None or swing.lift != step.lift:
-            # From where the foot is, so that no error of this stance goes into the next.
-            start = pose_at(float(sole[0, 3]), float(sole[1, 3]), yaw_of(sole), float(sole[2, 3]))
+            # From where the foot is, so that no error of this stance goes into the next, but with
+            # the plan's tilt: a sole that rocks when it lifts is to come down flat.
+            x, y, z = sole[:3, 3].tolist()
+            roll, pitch, _ = rpy_of(stood)
+            start = pose_at(x, y, yaw_of(sole), z, pitch, roll)
             swing = Swing(start, step.pose, step.lift, step.land, self._swing_height)
             contact = felt = False
         elif swing.end is not step.pose or swing.land != step.land:

@@ -214,7 +214,7 @@ def _place(scene: Scene) -> tuple[Heading, float]:
     scene.sense()
     soles = scene.soles()
     place = midfeet(soles["left"], soles["right"])
-    return place, scene.ground.height(place[0], place[1])
+    return place, float(scene.ground.height(place[0], place[1]))
 
 
 def _require_near(plan: FootstepPlan, place: Heading) -> None:

@@ -36,14 +36,18 @@ class LegGeometry:
     hip_height: float
     com_height: float
 
-    def com_over(self, spread: float) -> float:
-        """Return the height (m) of the CoM above soles `spread` (m) apart along the walk.
+    def com_over(self, spread: float, rise: float = 0.0) -> float:
+        """Return the height (m) of the CoM above the middle of two soles.
 
-        Midway between them, both legs must reach: the hips are on the lower of the walking
-        posture and the circle of radius `LONGEST_STRETCH * length` around each sole.
+        Both legs must reach: midway between the soles the hips are on the lower of the walking
+        posture and the circle of radius `LONGEST_STRETCH * length` around the lower sole.
+
+        Args:
+            spread: distance of the soles along the walk, m.
+            rise: difference of their heights, m.
         """
         reach = LONGEST_STRETCH * self.length
-        hips = sqrt(max(reach * reach - 0.25 * spread * spread, 0.0))
+        hips = sqrt(max(reach * reach - 0.25 * spread * spread, 0.0)) - 0.5 * rise
         hips = max(min(hips, self.hip_height), LOWEST_HIPS * self.length)
         return self.com_height - (self.hip_height - hips)
 
@@ -88,4 +92,5 @@ def _height(left: Array, right: Array, legs: LegGeometry, double_support: float)
     spread = float(np.hypot(*(left[:2, 3] - right[:2, 3])))
     aside = abs(float((left[:2, 3] - right[:2, 3]) @ left[:2, 1]))
     along = sqrt(max(spread * spread - aside * aside, 0.0)) * (1.0 + min(double_support, 1.0))
-    return 0.5 * float(left[2, 3] + right[2, 3]) + legs.com_over(along)
+    rise = abs(float(left[2, 3] - right[2, 3]))
+    return 0.5 * float(left[2, 3] + right[2, 3]) + legs.com_over(along, rise)

@@ -58,21 +58,32 @@ def _in_hand(model: mujoco.MjModel) -> Description:
 def visual_model(robot: Robot) -> mujoco.MjModel:
     """Return the robot's MuJoCo model with its visual shapes: same bodies, joints and state.
 
-    Meshes that are missing, or that need trimesh or pycollada where these are not installed, are
-    left out; a robot that has none at all is drawn as bones from joint to joint.
-
     Args:
         robot: the robot, or a copy of one.
     """
+    model = spec_of(robot, visuals=True).compile()
+    assert np.array_equal(model.qpos0, robot.mj.qpos0)
+    return model
+
+
+def spec_of(robot: Robot, visuals: bool) -> mujoco.MjSpec:
+    """Return the spec of the robot's MuJoCo model, to add to before it is compiled.
+
+    Visual meshes that are missing, or that need trimesh or pycollada where these are not installed,
+    are left out; a robot that has none at all is drawn as bones from joint to joint.
+
+    Args:
+        robot: the robot, or a copy of one.
+        visuals: with its visual shapes.
+    """
     plan = robot.blueprint
-    spec, _ = rebuild(plan.tree, plan.parts.base, plan.locked, looks=plan.urdf is None)
-    if plan.urdf is not None:
+    looks = visuals and plan.urdf is None
+    spec, _ = rebuild(plan.tree, plan.parts.base, plan.locked, looks=looks)
+    if visuals and plan.urdf is not None:
         add_shapes(plan.urdf, spec, "visual")
-    if not spec.geoms:
+    if visuals and not spec.geoms:
         add_bones(spec)
     assemble(spec, plan.soles, plan.efforts)
     for name in plan.unlimited:
         spec.joint(name).limited = False
-    model = spec.compile()
-    assert np.array_equal(model.qpos0, robot.mj.qpos0)
-    return model
+    return spec

@@ -64,6 +64,6 @@ def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:
     if isinstance(robot, Robot):
         width, z = robot.step_width, 0.0
     else:
-        width, z = robot.robot.step_width, robot.ground.height(x, y)
+        width, z = robot.robot.step_width, float(robot.ground.height(x, y))
     plan = FootstepPlanner(step_width=width).stand((x, y, yaw))
     return plan.transformed(pose_at(0.0, 0.0, z=z)) if z else plan

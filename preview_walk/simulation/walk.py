@@ -29,6 +29,7 @@ from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
 from preview_walk.simulation.standing import plant_of, standing_plan
+from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.types import FEET
@@ -77,6 +78,7 @@ class Walk:
         com_generator: str = "preview",
         on_tick: Callable[[Walk], None] | None = None,
         visuals: bool | None = None,
+        ground: Ground | None = None,
     ) -> None:
         """Stand the robot on the plan's first soles.
 
@@ -91,14 +93,13 @@ class Walk:
             seed: seeds whatever is random in the run; kept with the record.
             gains: weights and gains of the tracker; None takes the defaults.
             solver: "osqp" or another backend of qpsolvers.
-            swing_height: of a swing's apex above the higher of its two soles, m; None takes one in
-                proportion to the leg.
-            com_height: of the CoM above the soles while standing, m; None takes that of the robot's
-                walking posture.
+            swing_height: of a swing's apex above the higher of its two soles, m; None: by the leg.
+            com_height: of the CoM above the soles while standing, m; None: as in the posture.
             com_generator: what leads the CoM along the plan: "preview" (preview control), "mpc"
                 (the least jerk with the ZMP on the soles) or "dcm" (it follows the plan's DCM).
             on_tick: called with the walk at the end of every tick, before the physics steps.
             visuals: run on the model with visual meshes, for the live viewer.
+            ground: what the robot stands on; None is level. A plan must lie on it (`lay_on`).
 
         Raises:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
@@ -106,7 +107,7 @@ class Walk:
         """
         plan = as_plan(plan)
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
-        self.plant = plant_of(robot, com_height, **own)
+        self.plant = plant_of(robot, com_height, ground=ground, **own)
         self.robot = self.plant.robot
         gains = TrackingGains() if gains is None else instance_of(gains, TrackingGains, "gains")
         seed = count_of(seed, "seed", LARGEST_SEED)

@@ -12,9 +12,10 @@ import numpy as np
 from preview_walk.arguments import instance_of, items_of, number_within
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
-from preview_walk.robots.load import visual_model
+from preview_walk.robots.load import spec_of
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
+from preview_walk.simulation.ground_geoms import add_ground
 from preview_walk.simulation.pushes import Push, Pusher
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
@@ -36,7 +37,7 @@ SLIP_RATIO = 10.0
 
 
 class World:
-    """A robot on a flat floor in MuJoCo; a `Plant`.
+    """A robot on the ground in MuJoCo; a `Plant`.
 
     Attributes:
         robot, ground, friction, timestep, q, v, wrench, pushes, push: see `Plant`.
@@ -51,6 +52,7 @@ class World:
         friction: float = FRICTION,
         pushes: Sequence[Push] = (),
         visuals: bool = False,
+        ground: Ground | None = None,
     ) -> None:
         """Put the robot into its world.
 
@@ -60,6 +62,7 @@ class World:
             friction: Coulomb friction between soles and floor.
             pushes: forces on the robot's bodies.
             visuals: use the model with visual meshes, for a live viewer.
+            ground: what it stands on; None is level, at height 0.
 
         Raises:
             InvalidInput: a rate or friction that is not finite and > 0, or a push on an unknown
@@ -69,9 +72,9 @@ class World:
         rate = number_within(physics_hz, "physics_hz", 1, MAX_PHYSICS_HZ, "per second")
         self.robot = robot
         self.friction = number_within(friction, "friction", 1e-3, MAX_FRICTION)
-        self.ground: Ground = FlatGround()
+        self.ground: Ground = FlatGround() if ground is None else ground
         self.timestep = 1.0 / rate
-        self.model = copy.copy(visual_model(robot) if visuals is True else robot.mj)
+        self.model = _model_of(robot, visuals is True, ground)
         self.model.opt.timestep = self.timestep
         self.model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         self.model.opt.impratio = SLIP_RATIO
@@ -123,3 +126,13 @@ class World:
         for _ in range(steps):
             self.push = self._pusher.apply(data.time, data)
             mujoco.mj_step(self.model, data)
+
+
+def _model_of(robot: Robot, visuals: bool, ground: Ground | None) -> mujoco.MjModel:
+    """Return a model of the robot on its ground, one's own to change."""
+    if ground is None and not visuals:
+        return copy.copy(robot.mj)
+    spec = spec_of(robot, visuals)
+    if ground is not None:
+        add_ground(spec, ground)
+    return spec.compile()

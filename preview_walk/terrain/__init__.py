@@ -1,4 +1,5 @@
-"""The ground as a value: its height and normal at any place.
+"""The ground as a value: its height and normal at any place, from slopes to stepping stones.
 
-Imports numpy only; it knows no robot and no simulator. Start with `ground`.
+Imports `geometry` and numpy; it knows no robot and no simulator. Start with `ground` (what every
+ground can tell), then `shapes` (grounds by name) and `slabs` (what they are made of).
 """

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from preview_walk.types import Array
 
@@ -13,8 +14,8 @@ from preview_walk.types import Array
 class Ground(Protocol):
     """The ground under a walk, seen from above."""
 
-    def height(self, x: float, y: float) -> float:
-        """Return its height (m) at x, y (world, m)."""
+    def height(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """Return its height (m) at x and y (world, m), of their common shape."""
 
     def normal(self, x: float, y: float) -> Array:
         """Return its unit normal (3,), world axes, at x, y (world, m)."""
@@ -30,9 +31,9 @@ class FlatGround:
 
     z: float = 0.0
 
-    def height(self, x: float, y: float) -> float:
-        """Return `z`, wherever it is."""
-        return self.z
+    def height(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """Return `z`, wherever it is; see `Ground`."""
+        return np.full(np.broadcast(x, y).shape, self.z)
 
     def normal(self, x: float, y: float) -> Array:
         """Return (0, 0, 1), wherever it is."""
