@@ -23,6 +23,7 @@ OPTION_OF = {
     "start": "--start",
     "start_pos": "--start",
     "friction": "--friction",
+    "ground": "--ground",
     "pushes": "--push",
     "every": "--pushes",
     "impulse": "--pushes",

@@ -143,6 +143,12 @@ OPTIONS = (
         "friction of the ground, known to the robot too",
     ),
     Option(
+        "--ground",
+        "NAME:KEY=VALUE,...",
+        text("the name of a ground, as slope:degrees=8"),
+        "slope, stairs, ramps, blocks or stones; footsteps are laid on it, --velocity is blind",
+    ),
+    Option(
         "--push",
         "T,DURATION,FX,FY,FZ",
         numbers(

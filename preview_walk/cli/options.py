@@ -31,6 +31,7 @@ class Options:
             footsteps.
         start: x, y (m), yaw (rad).
         friction: of the ground.
+        ground: what is walked on, in words.
         pushes: (begin, duration, force) in s, s and N.
         random_pushes: (every, impulse) in s and N·s.
         seed: of whatever is random.
@@ -52,6 +53,7 @@ class Options:
     commands: tuple[tuple[tuple[float, float, float], float], ...]
     start: tuple[float, float, float]
     friction: float | None
+    ground: str | None
     pushes: tuple[tuple[float, float, tuple[float, float, float]], ...]
     random_pushes: tuple[float, float] | None
     seed: int
@@ -99,6 +101,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         ),
         start=(x, y, radians(yaw)),
         friction=found.friction,
+        ground=found.ground,
         pushes=tuple((p[0], p[1], (p[2], p[3], p[4])) for p in found.push),
         random_pushes=found.pushes and (found.pushes["every"], found.pushes["impulse"]),
         seed=found.seed,

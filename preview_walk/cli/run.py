@@ -108,6 +108,8 @@ def _walk(
             "viewer": options.view,
             **{name: value for name, value in given.items() if value is not None},
         }
+        if options.ground is not None:
+            settings["ground"] = pw.read_ground(options.ground)
         if plan is None:
             return pw.simulate_commands(robot, options.commands, start=options.start, **settings)
         return pw.simulate(robot, plan, **settings)

@@ -87,3 +87,10 @@ def test_the_catalogue_is_listed(out: Path, capsys: pytest.CaptureFixture[str]) 
     assert lines[0].split()[:2] == ["name", "robot"]
     assert any(line.startswith("talos ") and "90.3" in line for line in lines)
     assert not out.exists()
+
+
+def test_a_ground_is_read_and_walked_on(simulation: Simulation, out: Path) -> None:
+    assert run(out, "--ground", "slope:degrees=5") == 0
+    ground = simulation.calls[0]["ground"]
+    assert ground.slabs == pw.slope(5.0).slabs
+    assert run(out, "--ground", "slope:depth=5") == 2

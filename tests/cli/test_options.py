@@ -62,6 +62,7 @@ def test_every_option_is_read() -> None:
         commands=(),
         start=(-100.0, 0.5, np.radians(137)),
         friction=0.5,
+        ground=None,
         pushes=((2.0, 0.2, (-150.0, 0.0, 10.0)), (3.0, 0.1, (0.0, -5.0, 0.0))),
         random_pushes=(3.0, 20.0),
         seed=9,
