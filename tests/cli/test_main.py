@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from cli_stand_in import OUTPUTS, Simulation, complaint, run
 
+import preview_walk as pw
 from preview_walk.record.record import Record
 
 
