@@ -236,10 +236,8 @@ def _solve(
             rows.append(row)
             way = about.strides[k - 1] + about.strides[k]
             limits.append(stride.travel * cos(pi / _SIDES) - _AROUND @ way)
-    cost = np.zeros(count)
-    cost[0] = -1.0
     result = linprog(
-        cost,
+        -np.eye(1, count)[0],
         A_ub=np.vstack(rows),
         b_ub=np.concatenate(limits),
         A_eq=balance,

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from preview_walk.arguments import LARGEST, instance_of, number_from_zero, real_array, shown
 from preview_walk.errors import InvalidInput
@@ -138,18 +138,8 @@ def zmp_reference(
         np.array([a, a + weight_shift, b - weight_shift, b]),
         np.array([a - extra, a, b, b + extra]),
     )
-    stop = stands[:, None]
-    middle = midfeet[1:-1]
-    points = np.array(
-        [
-            rest[:-1],
-            np.where(stop, middle, rest[:-1] + share[:, None] * across),
-            np.where(stop, middle, rest[1:] - share[:, None] * across),
-            rest[1:],
-        ]
-    )
-    moving = np.where(stop, 0.0, slope[:, None] * across)
-    slopes = np.array([np.zeros_like(moving), moving, moving, np.zeros_like(moving)])
+    way = (share[:, None] * across, slope[:, None] * across)
+    points, slopes = _knots(stands[:, None], rest, midfeet[1:-1], way)
     return ZMPReference(
         np.concatenate((first, times.T.ravel(), last)),
         np.concatenate(
@@ -157,6 +147,30 @@ def zmp_reference(
         ),
         np.concatenate((still, still, slopes.swapaxes(0, 1).reshape(-1, 2), still, still)),
     )
+
+
+def _knots(
+    stop: NDArray[np.bool_], rest: Array, middle: Array, way: tuple[Array, Array]
+) -> tuple[Array, Array]:
+    """Return points and slopes (4, n, 2) at the knots of the double supports between steps.
+
+    Args:
+        stop: (n, 1) whether the ZMP stops between the feet.
+        rest: (n + 1, 2) the standing sole's centre in each step, m.
+        middle: (n, 2) the middle of the feet in each double support, m.
+        way: (n, 2) each, how far a crossing is at its landing, m, and how fast then, m/s.
+    """
+    before, speed = way
+    points = np.array(
+        [
+            rest[:-1],
+            np.where(stop, middle, rest[:-1] + before),
+            np.where(stop, middle, rest[1:] - before),
+            rest[1:],
+        ]
+    )
+    moving = np.where(stop, 0.0, speed)
+    return points, np.array([np.zeros_like(moving), moving, moving, np.zeros_like(moving)])
 
 
 def _standing(plan: FootstepPlan) -> tuple[np.ndarray, np.ndarray]:
