@@ -4,8 +4,8 @@ Largest impulse (N·s) of a push of 0.2 s, by CoP alone / with free footholds / 
 and timing. First in the limits that a reference states, computed independently of this package and
 printed to 0.1 N·s, below ours. They bound a pendulum with these limits, not every controller:
 ours steps wider, quicker and with shorter double supports. So then, with `--own`, the bound of the
-same pendulum in the limits of `preview_walk.stabilizer.recovery`: what ours survives beyond it, it
-survives by what the pendulum leaves out, the angular momentum of trunk and arms.
+same pendulum in the limits of `preview_walk.stabilizer.step_limits`: what ours survives beyond it,
+it survives by what the pendulum leaves out, the angular momentum of trunk and arms.
 
     python benchmarks/push_bound_table.py
     python benchmarks/push_bound_table.py --own
@@ -86,12 +86,12 @@ def own_limits(name: str) -> PushGait:
     The swing speed is a mean: of a foot that is at its top speed, over the rest of its way.
     """
     import preview_walk as pw
-    from preview_walk.stabilizer.recovery import Recovery
     from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE
     from preview_walk.stabilizer.step_adaptation import SPEED_SHARE
+    from preview_walk.stabilizer.step_limits import step_limits
 
-    gait = GAITS[name]
-    limits = Recovery(pw.load_robot(name.lower()), gait.omega).limits
+    gait, robot = GAITS[name], pw.load_robot(name.lower())
+    limits = step_limits(robot.leg_length, robot.step_width, robot.sole, gait.omega)
     shortest, longest = limits.swing_time
     return replace(
         gait,
