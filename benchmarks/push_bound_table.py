@@ -4,8 +4,8 @@ Largest impulse (N·s) of a push of 0.2 s, by CoP alone / with free footholds / 
 and timing. First in the limits that a reference states, computed independently of this package and
 printed to 0.1 N·s, below ours. They bound a pendulum with these limits, not every controller:
 ours steps wider, quicker and with shorter double supports. So then, with `--own`, the bound of the
-same pendulum in the limits of `preview_walk.stabilizer.recovery`: what ours survives beyond it, it
-survives by what the pendulum leaves out, the angular momentum of trunk and arms.
+same pendulum in the limits of `preview_walk.stabilizer.step_limits`: what ours survives beyond it,
+it survives by what the pendulum leaves out, the angular momentum of trunk and arms.
 
     python benchmarks/push_bound_table.py
     python benchmarks/push_bound_table.py --own

@@ -2,9 +2,8 @@ r"""The largest jump of the DCM that steps at given times capture: one linear pr
 
 The linear inverted pendulum with frequency omega has the DCM xi = c + c' / omega, whose motion
 xi' = omega (xi - p) depends on the CoP p alone (Englsberger, Ott, Albu-Schaeffer, "Three-
-dimensional bipedal walking control based on divergent component of motion", T-RO 2015: the DCM
-under a ZMP that is held).
-Solved backwards from a DCM at rest it is the discounted mean of the CoP to come,
+dimensional bipedal walking control based on divergent component of motion", T-RO 2015). Solved
+backwards from a DCM at rest it is the discounted mean of the CoP to come,
 
     xi(0) = omega * integral over t >= 0 of exp(-omega t) p(t) dt,
 

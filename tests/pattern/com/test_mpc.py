@@ -13,6 +13,7 @@ from preview_walk.geometry.support import support_margin, support_polygon
 from preview_walk.pattern.com import mpc
 from preview_walk.pattern.com.mpc import PERIOD, SAMPLES, MpcGenerator, MpcState
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT, SampledPlan, sample_plan
+from preview_walk.pattern.zmp_reference import ZMP_MARGIN
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, Array
 
 GENERATOR = MpcGenerator(MODEL.pendulum_height)
@@ -46,6 +47,7 @@ def test_the_zmp_is_on_the_soles_between_the_samples_too() -> None:
         for tick, state in enumerate(states)
     ]
     # 20 mm are asked for at the samples; between them the swing's shift is not a straight line.
+    assert min(margins[PERIOD::PERIOD]) > ZMP_MARGIN - 1e-6
     assert min(margins) > 0.015
     reference = np.abs(np.array([s.zmp for s in states]) - SAMPLED.zmp).max()
     assert reference > 0.03  # nothing asks for the middle of the soles

@@ -46,3 +46,13 @@ def test_a_double_support_that_is_too_short_for_that_keeps_both_soles() -> None:
     middle = round(0.5 * (first.land + second.lift) / 0.005)
     for sole in (PLAN.sole(first.foot, first.land), PLAN.sole(second.foot, first.land)):
         assert margin_of(middle, sole[:2, 3], 50) > 0.0  # 0.25 s either way; it lasts 0.18 s
+
+
+def test_at_a_landing_the_sole_stands_where_it_landed() -> None:
+    """At the very instant, and in every double support: not where the one before had it."""
+    lands = [step.land for step in PLAN.steps]
+    supports = Supports(PLAN, SOLE, np.sort(np.append(TIMES, lands)))
+    for step in PLAN.steps:
+        sample = np.searchsorted(np.sort(np.append(TIMES, lands)), step.land)
+        for normals, offsets in supports.around(np.array([sample, sample + 1]), 0):
+            assert (offsets - normals @ step.pose[:2, 3]).min() > 0.0
