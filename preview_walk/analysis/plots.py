@@ -24,7 +24,7 @@ from preview_walk.analysis.motion_plots import draw_axis, draw_errors, draw_feet
 from preview_walk.analysis.phase_plots import draw_phases, draw_timing_errors
 from preview_walk.analysis.style import new_figure, picture_path, save_figure
 from preview_walk.analysis.top_view import draw_top_view
-from preview_walk.arguments import instance_of, shown
+from preview_walk.arguments import LARGEST, instance_of, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.files import OutputError, as_path, is_folder, short
 from preview_walk.record.record import Record
@@ -112,7 +112,7 @@ def plot(record: Record, path: str | os.PathLike[str]) -> Path:
     """Write the overview of a run to one picture (.png, .pdf, .svg, ...); return its path.
 
     Raises:
-        InvalidInput: the record is empty, or matplotlib does not know the suffix.
+        InvalidInput: the record is empty or not finite, or matplotlib does not know the suffix.
         OutputError: the file cannot be written.
     """
     _require_ticks(record)
@@ -155,3 +155,11 @@ def _require_ticks(record: Record) -> None:
         raise InvalidInput(
             "a plot needs a record of at least one tick, got an empty one.", "record"
         )
+    for name in ("left_foot_ref", "right_foot_ref", "com", "com_ref", "zmp_ref"):
+        array = record.arrays()[name]
+        if not (np.abs(array) < LARGEST).all():
+            raise InvalidInput(
+                f"a plot needs a record whose {name} is finite and within {LARGEST:g} m, "
+                "got one with other numbers.",
+                "record",
+            )

@@ -28,6 +28,7 @@ from preview_walk.stabilizer.com_feedback import (
     com_feedback,
 )
 from preview_walk.stabilizer.disturbance import Disturbance, observe
+from preview_walk.stabilizer.flight import Flight, feel, waiting
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
@@ -57,6 +58,7 @@ class Walker:
         reference: of the CoM at the last tick.
         feedback: what the stabilizer asked for at the last tick.
         disturbance: what pushes the DCM, as observed.
+        flight: whether the soles feel the ground.
     """
 
     def __init__(
@@ -118,6 +120,7 @@ class Walker:
             robot.leg_length, robot.step_width, robot.sole, self.pattern.omega
         )
         self._planned_until = -np.inf
+        self.flight = Flight()
 
     def __repr__(self) -> str:
         return f"Walker({self.robot.name}, {self.plan!r})"
@@ -164,6 +167,7 @@ class Walker:
         self.body.update(q, v)
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
+        self.flight = feel(self.flight, t, sum(normal_force.values()) / self.weight)
         if t >= self._planned_until:
             self._planned_until = t + PLANNING_DT - 1e-9
             self._recover(t, state)
@@ -186,7 +190,10 @@ class Walker:
         return self.body.torques(self.feet.normal_limits(t, self.plan))
 
     def _recover(self, t: float, state: CentroidalState) -> None:
-        """Observe what pushes the robot, and walk by another plan where recovery has one."""
+        """Observe what pushes the robot, and walk by another plan where recovery has one.
+
+        In flight there is nothing to step on: the plan waits.
+        """
         omega = self.pattern.omega
         dcm = state.dcm(omega)
         self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
@@ -198,6 +205,11 @@ class Walker:
             self.pattern.planned_dcm,
             self._free_swing(t),
         )
+        if self.flight.flies:
+            plan = waiting(self.plan, t)
+            if plan is not None:
+                self.follow(plan)
+            return
         decision = recover(situation, self._recovery, self._limits)
         self._recovery = decision.memory
         if decision.plan is not None:

@@ -207,7 +207,7 @@ class FootstepPlan(Sequence[Footstep]):
         Raises:
             InvalidInput: a new step lifts at or before t, or does not fit to those before it.
         """
-        new = tuple(items_of(steps, Footstep, "steps"))
+        t, new = time_of(t), tuple(items_of(steps, Footstep, "steps"))
         kept = self._items[: 2 + _until(self._lifts, t)]
         if new and new[0].lift <= t:
             lift = new[0].lift
@@ -227,6 +227,7 @@ class FootstepPlan(Sequence[Footstep]):
         Raises:
             InvalidInput: no foot is in the air at t, `land` is not after t, or `pose` is none.
         """
+        t = time_of(t)
         step = self.swing_at(t)
         if step is None:
             raise InvalidInput(

@@ -80,6 +80,7 @@ def read_plant(system: Linear, dt: float | None = None, E: ArrayLike | None = No
     """
     if dt is not None:
         require_positive("dt", dt, "s")
+        dt = float(dt)  # which may have come as a Decimal
     if isinstance(system, Plant) and dt is None and E is None:
         return system
     space = _state_space(system, dt)
