@@ -18,7 +18,8 @@ from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.qp.safety import Fallback, QPFailure, check_state
-from preview_walk.tracking.qp.solvers import DEFAULT, Backend, Solution, make_backend
+from preview_walk.tracking.qp.solution import Backend, Solution
+from preview_walk.tracking.qp.solvers import DEFAULT, make_backend
 from preview_walk.tracking.tasks import (
     AngularMomentumTask,
     CoMTask,
