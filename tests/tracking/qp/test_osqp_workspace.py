@@ -69,8 +69,9 @@ def test_agrees_with_daqp_whether_or_not_osqp_converges(robot: Robot, iterations
     assert any(finished) or iterations > 5
 
 
-def test_its_own_multipliers_need_one_iteration(talos: Robot) -> None:
-    qp = hard(talos, 1).normalise()
+@pytest.mark.parametrize("seed", [0, 2, 4])
+def test_polished_multipliers_need_one_iteration(talos: Robot, seed: int) -> None:
+    qp = hard(talos, seed).normalise()
     workspace = workspace_for(qp)
     first = workspace.solve(qp, None, 40)
     again = workspace.solve(qp, first.multipliers, 40)
