@@ -76,6 +76,8 @@ class CondensedQP:
         self.working_set = tuple(working_set)
         p, k = problem, len(self.working_set)
         self._indices = np.array(self.working_set, dtype=int)
+        self._dofs = 6 + self._indices[self._indices < p.n]  # whose torque is limited
+        self._below = np.arange(p.nv) < self._dofs[:, None]
         self.size = p.nf + k
         self._tail = 6 + k
         m = p.m + k
@@ -137,16 +139,13 @@ class CondensedQP:
 
     def _reduce_working_set(self) -> None:
         """Write the rows, map and bounds of the limits of the working set."""
-        p, at = self.problem, self.problem.m
-        for i, limit in enumerate(self.working_set):
-            if limit < p.n:
-                dof = 6 + limit
-                self._rows[at + i, :dof] = p.mass[:dof, dof]
-                self._rows[at + i, dof:] = p.mass[dof, dof:]
-                self._residual[at + i] = -p.bias[dof]
-                self._map[6 + i, : p.nf] = p.contact_jacobian[:, dof]
-            else:
-                self._residual[at + i] = 0.0
+        p, at, dofs = self.problem, self.problem.m, self._dofs
+        end = at + len(dofs)
+        # Of the symmetric mass matrix only the upper triangle is filled.
+        self._rows[at:end] = np.where(self._below, p.mass[:, dofs].T, p.mass[dofs])
+        np.negative(p.bias[dofs], out=self._residual[at:end])
+        self._residual[end:] = 0.0
+        self._map[6 : 6 + len(dofs), : p.nf] = p.contact_jacobian[:, dofs].T
         at = len(p.contact_low)
         self.low[at:], self.high[at:] = p.limits[:, self._indices]
 
