@@ -32,9 +32,9 @@ _INFINITE = 1e20
 _DROPS = 4
 """How often `polish` leaves out constraints whose multipliers have the wrong sign."""
 
-_RIDGE = 1e-9
-"""Added to the squared lengths of the active rows, of which some may follow from others; steps of
-refinement take its effect out again."""
+_RIDGE = 1e-10
+"""Added to the squared lengths of the active rows, of which some may follow from others; a step of
+refinement takes its effect out again."""
 
 _POLISHED = 1e-8
 """Violation, relative to the point's distance, that a polished minimiser may have."""
@@ -61,38 +61,30 @@ def polish(gradient: Array, rows: Array, low: Array, high: Array, multipliers: A
     of `nearest_point`. OSQP's own polishing is the same step, unchecked (Stellato and others,
     Mathematical Programming Computation 12, 2020, section 4).
     """
-    index, sign, bound = _active(low, high, multipliers)
-    for _ in range(_DROPS):
-        normals = rows[index] * sign[:, None]
-        dual, error = _multipliers(normals, -(normals @ gradient) - bound)
-        keep = dual >= 0.0
-        if keep.all():
-            break
-        index, sign, bound = index[keep], sign[keep], bound[keep]
-    else:
-        return Polished(-gradient, np.zeros(len(low)), False)
     y = np.zeros(len(low))
-    y[index] = dual * sign
-    x = -gradient - dual @ normals
+    index, sign, bound = _active(low, high, multipliers)
+    normals = rows[index] * sign[:, None]
+    gram, wanted = normals @ normals.T, -(normals @ gradient) - bound
+    for _ in range(_DROPS):
+        if not index.size:
+            break
+        ridged = gram.copy()
+        ridged.reshape(-1)[:: len(gram) + 1] += _RIDGE
+        factor = dpotrf(ridged, lower=1)[0]
+        dual = dpotrs(factor, wanted, lower=1)[0]
+        if dual.min() >= 0.0:
+            dual += dpotrs(factor, wanted - gram @ dual, lower=1)[0]
+            y[index] = dual * sign
+            break
+        keep = dual >= 0.0
+        index, sign, bound, wanted = index[keep], sign[keep], bound[keep], wanted[keep]
+        gram = gram[keep][:, keep]
+    x = -gradient - y @ rows
     values = rows @ x
-    error = max(error, float((values - high).max()), float((low - values).max()))
+    error = max(float((values - high).max()), float((low - values).max()))
+    if index.size:
+        error = max(error, float(np.abs(values[index] * sign - bound).max()))
     return Polished(x, y, error <= _POLISHED * (1.0 + float(np.abs(gradient).max())))
-
-
-def _multipliers(normals: Array, wanted: Array) -> tuple[Array, float]:
-    """Return d with normals @ normals.T @ d = wanted, and by how much it misses that."""
-    if not wanted.size:
-        return wanted, 0.0
-    gram = normals @ normals.T
-    ridged = gram.copy()
-    ridged.reshape(-1)[:: len(gram) + 1] += _RIDGE
-    factor = dpotrf(ridged, lower=1)[0]
-    dual: Array = dpotrs(factor, wanted, lower=1)[0]
-    residual = wanted - gram @ dual
-    for _ in range(2):
-        dual += dpotrs(factor, residual, lower=1)[0]
-        residual = wanted - gram @ dual
-    return dual, float(np.abs(residual).max())
 
 
 def nearest_point(

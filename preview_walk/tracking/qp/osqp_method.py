@@ -12,13 +12,13 @@ from preview_walk.tracking.qp.condensing import NearestPoint
 from preview_walk.tracking.qp.osqp_workspace import OsqpWorkspace
 from preview_walk.types import Array, Foot
 
-MAX_ITERATIONS = 50
+MAX_ITERATIONS = 60
 """Iterations of OSQP after which an exact method finishes a tick; nearly all ticks need fewer."""
 
-BURST = 25
+BURST = 15
 """Iterations of OSQP between two trials of polishing."""
 
-SLOTS = (0, 4, 8, 16, 32)
+SLOTS = (0, 2, 4, 6, 8, 10, 12, 16, 24, 32)
 """Numbers of joint limits for which OSQP is set up; with more the exact method is left alone."""
 
 
