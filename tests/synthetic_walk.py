@@ -118,6 +118,7 @@ def walk_record(
             qp_time=1.5e-4,
             qp_iterations=20,
             qp_status=0,
+            qp_solver=0,
         )
     return recorder.finish()
 

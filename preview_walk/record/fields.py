@@ -105,6 +105,11 @@ class Ticks:
         dtype=np.int8,
         doc="0 solved, 1 fell back to the last solution, 2 fell back to the damped posture",
     )
+    qp_solver: NDArray[np.int8] = _array(
+        unit="1",
+        dtype=np.int8,
+        doc="who solved the QP: 0 the run's solver, 1 the exact method that finishes for it",
+    )
     tick_time: Array = _array(unit="s", timing=True, doc="wall time of the whole control tick")
     terms_time: Array = _array(unit="s", timing=True, doc="wall time of the model's terms")
     assembly_time: Array = _array(unit="s", timing=True, doc="wall time of the QP's assembly")

@@ -48,6 +48,7 @@ def summarize(ticks: Ticks, plans: PlanLog, run: RunFacts) -> Summary:
         tick_ms=_times_ms(ticks.tick_time),
         qp_ms=_times_ms(ticks.qp_time),
         qp_failures=int(np.count_nonzero(ticks.qp_status > 0)),
+        qp_own_share=_own_share(ticks),
         real_time_factor=_number(duration / run.wall_time) if run.wall_time else None,
     )
 
@@ -78,6 +79,12 @@ def _times_ms(seconds: Array) -> Figures:
         return None
     median, p99 = np.percentile(times, [50, 99])
     return {"median": float(median), "p99": float(p99), "max": float(times.max())}
+
+
+def _own_share(ticks: Ticks) -> float | None:
+    """Return the share of the solved QPs that the exact method did not have to finish."""
+    by = ticks.qp_solver[(ticks.qp_status == 0) & (ticks.qp_solver >= 0)]
+    return float(np.mean(by == 0)) if len(by) else None
 
 
 def _end(ticks: Ticks, run: RunFacts) -> float:

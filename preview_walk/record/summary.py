@@ -44,6 +44,8 @@ class Summary:
         tick_ms: median, p99 and max of the control tick's wall time, ms.
         qp_ms: the same of its QP.
         qp_failures: ticks that did not use a solved QP.
+        qp_own_share: share of the solved QPs that the run's solver solved itself; the exact method
+            finished the others.
         real_time_factor: simulated time over time spent.
     """
 
@@ -65,6 +67,7 @@ class Summary:
     tick_ms: Figures
     qp_ms: Figures
     qp_failures: int
+    qp_own_share: float | None
     real_time_factor: float | None
 
     def __str__(self) -> str:
@@ -119,6 +122,7 @@ def table(summary: Summary) -> str:
         ("tick median, p99, max", _times(s.tick_ms)),
         ("QP median, p99, max", _times(s.qp_ms)),
         ("QP failures", str(s.qp_failures)),
+        ("QPs the solver solved", _value(s.qp_own_share, 2, "%", 1e2)),
         ("real-time factor", _value(s.real_time_factor, 2, "x")),
     ]
     width = max(len(name) for name, _ in rows)

@@ -134,6 +134,7 @@ def tick_row(
         "phase_ref": walker.plan.support(t),
         "qp_iterations": body.solution.iterations,
         "qp_status": body.status,
+        "qp_solver": body.solution.finished,
         "tick_time": spent,
         "terms_time": body.times.terms,
         "assembly_time": body.times.assembly,

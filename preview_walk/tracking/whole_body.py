@@ -19,9 +19,11 @@ from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_state
 from preview_walk.tracking.qp.answer import flaw
+from preview_walk.tracking.qp.condensed_backend import CondensedBackend
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.qp.safety import Fallback, QPFailure
-from preview_walk.tracking.qp.solvers import DEFAULT, Backend, OsqpBackend, Solution, make_backend
+from preview_walk.tracking.qp.solution import Backend, Solution
+from preview_walk.tracking.qp.solvers import DEFAULT, make_backend
 from preview_walk.tracking.tasks import (
     AngularMomentumTask,
     CoMTask,
@@ -218,7 +220,7 @@ class WholeBodyController:
         solution, cause, why = None, None, None
         try:
             solution = self.backend.solve(problem)
-            why = flaw(problem, solution, isinstance(self.backend, OsqpBackend))
+            why = flaw(problem, solution, isinstance(self.backend, CondensedBackend))
         # Whatever a solver may raise, even an exit from the program, the robot needs torques now.
         except (Exception, SystemExit) as error:
             cause, why = error, str(error) or type(error).__name__

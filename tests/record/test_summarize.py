@@ -96,6 +96,16 @@ def test_infinite_values_give_a_summary_that_can_be_written(record: Record, tmp_
     assert read["cost_of_transport"] is None
 
 
+def test_share_of_the_qps_that_the_solver_solved_itself(record: Record) -> None:
+    status, solver = record.qp_status.copy(), record.qp_solver.copy()
+    solver[:10] = 1
+    status[:5] = 1  # not solved at all: they do not count
+    summary = dataclasses.replace(record, qp_status=status, qp_solver=solver).summary()
+    assert summary.qp_own_share == pytest.approx(1.0 - 5 / (len(record) - 5))
+    unknown = dataclasses.replace(record, qp_solver=np.full_like(solver, -1)).summary()
+    assert unknown.qp_own_share is None
+
+
 def test_timings_and_failures(record: Record) -> None:
     status = record.qp_status.copy()
     status[[3, 5]] = 1, 2
@@ -103,6 +113,7 @@ def test_timings_and_failures(record: Record) -> None:
     ticks[0] = 9e-4
     summary = dataclasses.replace(record, qp_status=status, tick_time=ticks).summary()
     assert summary.qp_failures == 2
+    assert summary.qp_own_share == 1.0
     assert summary.tick_ms == pytest.approx({"median": 0.3, "p99": 0.3, "max": 0.9})
     assert summary.qp_ms == pytest.approx({"median": 0.15, "p99": 0.15, "max": 0.15})
 

@@ -17,7 +17,7 @@ KEYS = """
     robot fell fall_time fall_reason duration steps distance speed final_position_error
     final_yaw_error com_error_rms zmp_error_rms torque_ratio_max cost_of_transport
     cost_of_transport_positive tick_ms qp_ms
-    qp_failures real_time_factor
+    qp_failures qp_own_share real_time_factor
 """
 
 

@@ -15,9 +15,11 @@ from preview_walk import FootstepPlanner, Walk
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.gains import TrackingGains
+from preview_walk.tracking.qp.condensed_backend import CondensedBackend
+from preview_walk.tracking.qp.osqp_method import WarmOsqp
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.qp.safety import DAMPED_POSTURE, LAST_SOLUTION, SOLVED
-from preview_walk.tracking.qp.solvers import Backend, OsqpBackend, Solution
+from preview_walk.tracking.qp.solution import Backend, Solution
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Array, Foot
 
@@ -238,7 +240,7 @@ def test_a_walk_with_nan_in_one_measured_velocity_stops_and_says_so(make_walk: M
 def test_a_walk_with_five_iterations_at_most_still_walks(make_walk: MakeWalk) -> None:
     """What OSQP does not finish, the active-set method does."""
     walk = make_walk(2)
-    walk.walker.body.backend = OsqpBackend(max_iterations=5)
+    walk.walker.body.backend = CondensedBackend(WarmOsqp(max_iterations=5))
     record = walk.run().record()
     assert not walk.fallen
     assert (record.qp_status == SOLVED).all()

@@ -11,7 +11,7 @@ import numpy as np
 from preview_walk.arguments import shown
 from preview_walk.constants import GRAVITY
 from preview_walk.tracking.qp.problem import TickProblem
-from preview_walk.tracking.qp.solvers import Solution
+from preview_walk.tracking.qp.solution import Solution
 
 ROOM = 0.01
 """Share of the weight (N; N·m for moments) by which an answer may miss what it must obey: ten times
@@ -24,10 +24,11 @@ def flaw(problem: TickProblem, answer: object, exact: bool = False) -> str | Non
     Args:
         problem: the tick's QP.
         answer: what the solver returned for it.
-        exact: whether the solver is the default one, whose answers without an iteration obey
-            motion, cones and limits by construction: only nan could be in them.
+        exact: whether the accelerations were eliminated exactly (`CondensedBackend`): motion is
+            obeyed by construction, cones and limits to the solver's own tolerance. Only nan could
+            be in such an answer.
     """
-    if exact and isinstance(answer, Solution) and answer.solved and answer.iterations == 0:
+    if exact and isinstance(answer, Solution) and answer.solved is True:
         total = answer.torques @ answer.torques
         return None if total < np.inf else "the torques are not finite"
     if not isinstance(answer, Solution):

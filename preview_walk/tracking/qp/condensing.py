@@ -22,7 +22,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.linalg.blas import dtrsm, dtrsv
-from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
+from scipy.linalg.lapack import dpotrf, dpotrs
 
 from preview_walk.tracking.qp.problem import LIMIT_WEIGHT, TickProblem
 from preview_walk.types import Array
@@ -30,9 +30,31 @@ from preview_walk.types import Array
 TOLERANCE = 1e-7
 """Amount (N, N·m, rad/s^2) by which the solution may cross a constraint that it does not know."""
 
+UNBOUNDED = 1e40
+"""Bound of a constraint without one: finite, so that zero times it is zero, and beyond what OSQP
+and daqp take for infinite (1e26, 1e30) in any unit."""
+
 
 class NotSolvable(ArithmeticError):
     """The values of a problem are not finite, or its rows contradict each other."""
+
+
+class NearestPoint:
+    """A QP in x = factor^T w, which makes its Hessian the identity.
+
+        minimise |x + gradient|^2 / 2  subject to  low <= rows @ x <= high
+
+    Attributes:
+        gradient: (n,).
+        rows: (m, n) in Fortran's order, each of length one.
+        low, high: (m,); finite, see `UNBOUNDED`.
+        length: (m,) of the rows of the constraints before.
+    """
+
+    def __init__(self, count: int, size: int) -> None:
+        self.gradient: Array = np.zeros(size)
+        self.rows: Array = np.zeros((count, size), order="F")
+        self.low, self.high, self.length = np.zeros(count), np.zeros(count), np.zeros(count)
 
 
 class CondensedQP:
@@ -45,6 +67,7 @@ class CondensedQP:
         working_set: columns of `TickProblem.limits`: torques first, then accelerations.
         constraints, low, high: (k, size), (k,), (k,).
         factor, gradient: (size, size) lower triangular, (size,); valid after `reduce`.
+        nearest: the same QP as `normalise` writes it.
         acceleration, torques: (nv,), (n,); valid after `expand`.
     """
 
@@ -53,6 +76,8 @@ class CondensedQP:
         self.working_set = tuple(working_set)
         p, k = problem, len(self.working_set)
         self._indices = np.array(self.working_set, dtype=int)
+        self._dofs = 6 + self._indices[self._indices < p.n]  # whose torque is limited
+        self._below = np.arange(p.nv) < self._dofs[:, None]
         self.size = p.nf + k
         self._tail = 6 + k
         m = p.m + k
@@ -70,17 +95,18 @@ class CondensedQP:
             if i >= p.n:
                 self._rows[p.m + at, 6 + i - p.n] = 1.0
                 self._inverse_weight[p.m + at] = 1.0 / LIMIT_WEIGHT
-        self.constraints = np.zeros((len(p.contact_rows) + k, self.size))
+        self.constraints = np.zeros((len(p.contact_rows) + k, self.size), order="F")
         self.constraints[: len(p.contact_rows), : p.nf] = p.contact_rows
         self.constraints[len(p.contact_rows) :, p.nf :] = np.eye(k)
-        self.low = np.concatenate([p.contact_low, np.zeros(k)])
-        self.high = np.concatenate([p.contact_high, np.zeros(k)])
+        self.low = np.concatenate([np.maximum(p.contact_low, -UNBOUNDED), np.zeros(k)])
+        self.high = np.concatenate([np.minimum(p.contact_high, UNBOUNDED), np.zeros(k)])
         self.factor: Array = np.zeros((self.size, self.size))
         self.gradient: Array = np.zeros(self.size)
         self.acceleration: Array = np.zeros(p.nv)
         self._values: Array = np.zeros(2 * p.n)
         self.torques = self._values[: p.n]
         self._excess = np.zeros((2, 2 * p.n))
+        self.nearest = NearestPoint(*self.constraints.shape)
 
     def reduce(self) -> None:
         """Eliminate the accelerations at the problem's current values.
@@ -109,20 +135,17 @@ class CondensedQP:
         hessian.reshape(-1)[: p.nf * self.size : self.size + 1] += p.wrench_weight
         self.factor = _cholesky(hessian)
         self.gradient = self._solved[-self._tail :] @ self._response
-        self.high[: len(p.contact_high)] = p.contact_high
+        np.minimum(p.contact_high, UNBOUNDED, out=self.high[: len(p.contact_high)])
 
     def _reduce_working_set(self) -> None:
         """Write the rows, map and bounds of the limits of the working set."""
-        p, at = self.problem, self.problem.m
-        for i, limit in enumerate(self.working_set):
-            if limit < p.n:
-                dof = 6 + limit
-                self._rows[at + i, :dof] = p.mass[:dof, dof]
-                self._rows[at + i, dof:] = p.mass[dof, dof:]
-                self._residual[at + i] = -p.bias[dof]
-                self._map[6 + i, : p.nf] = p.contact_jacobian[:, dof]
-            else:
-                self._residual[at + i] = 0.0
+        p, at, dofs = self.problem, self.problem.m, self._dofs
+        end = at + len(dofs)
+        # Of the symmetric mass matrix only the upper triangle is filled.
+        self._rows[at:end] = np.where(self._below, p.mass[:, dofs].T, p.mass[dofs])
+        np.negative(p.bias[dofs], out=self._residual[at:end])
+        self._residual[end:] = 0.0
+        self._map[6 : 6 + len(dofs), : p.nf] = p.contact_jacobian[:, dofs].T
         at = len(p.contact_low)
         self.low[at:], self.high[at:] = p.limits[:, self._indices]
 
@@ -138,6 +161,23 @@ class CondensedQP:
         if not np.isfinite(values).all():
             raise NotSolvable("the values of the QP are not finite")
         return None
+
+    def normalise(self) -> NearestPoint:
+        """Return the reduced QP with the identity for its Hessian and rows of length one."""
+        to, factor = self.nearest, self.factor
+        rows = dtrsm(1.0, factor, self.constraints, side=1, lower=1, trans_a=1)
+        length = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+        np.divide(rows.T, length, out=rows.T)
+        np.divide(self.low, length, out=to.low)
+        np.divide(self.high, length, out=to.high)
+        to.gradient = dtrsv(factor, self.gradient, lower=1)
+        to.rows, to.length = rows, length
+        return to
+
+    def original(self, x: Array) -> Array:
+        """Return the w of an x of `nearest`."""
+        w: Array = dtrsv(self.factor, x, lower=1, trans=1)
+        return w
 
     def expand(self, w: Array) -> None:
         """Recover `acceleration` and `torques` of a solution w."""
@@ -167,12 +207,6 @@ class CondensedQP:
             raise NotSolvable("the solution is not finite")
         over = np.flatnonzero(excess.max(axis=0) > TOLERANCE)
         return [i for i in over.tolist() if i not in self.working_set]
-
-
-def inverse_factor(factor: Array) -> Array:
-    """Return the inverse of a lower triangular matrix."""
-    inverse: Array = dtrtri(factor, lower=1)[0]
-    return inverse
 
 
 def _cholesky(matrix: Array) -> Array:

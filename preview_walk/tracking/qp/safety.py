@@ -24,7 +24,7 @@ from preview_walk.tracking.qp.problem import (
     WRENCH_UNIT,
     TickProblem,
 )
-from preview_walk.tracking.qp.solvers import Solution
+from preview_walk.tracking.qp.solution import Solution
 from preview_walk.types import Array, Foot
 
 SOLVED, LAST_SOLUTION, DAMPED_POSTURE = 0, 1, 2

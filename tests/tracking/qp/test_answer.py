@@ -14,7 +14,8 @@ from preview_walk.robots.robot import Robot
 from preview_walk.tracking.qp.answer import ROOM, flaw
 from preview_walk.tracking.qp.problem import TickProblem
 from preview_walk.tracking.qp.safety import DAMPED_POSTURE, LAST_SOLUTION, SOLVED
-from preview_walk.tracking.qp.solvers import OsqpBackend, QpsolversBackend, Solution
+from preview_walk.tracking.qp.solution import Solution
+from preview_walk.tracking.qp.solvers import QpsolversBackend, make_backend
 from preview_walk.types import Foot
 
 Spoil = Callable[[Solution], Any]
@@ -59,7 +60,7 @@ class Spoiling:
     """A backend whose answers are spoilt."""
 
     def __init__(self, spoil: Spoil) -> None:
-        self.backend, self.spoil = OsqpBackend(), spoil
+        self.backend, self.spoil = make_backend("osqp"), spoil
 
     def solve(self, problem: TickProblem) -> Any:
         return self.spoil(self.backend.solve(problem))
@@ -75,7 +76,7 @@ def test_nonsense_never_reaches_the_motors(talos: Robot, kind: str) -> None:
     np.testing.assert_allclose(body.torques(full_load(talos)), good, atol=1e-6)
     assert body.status == LAST_SOLUTION
     assert any(part in str(body.failure) for part in said.split("|")), body.failure
-    body.backend = OsqpBackend()
+    body.backend = make_backend("osqp")
     body.torques(full_load(talos))
     assert body.status == SOLVED
 
@@ -94,7 +95,7 @@ def test_what_solvers_return_is_taken_with_room_to_spare(
 ) -> None:
     problem = busy_problem(robot, seed, *feet)
     monkeypatch.setattr("preview_walk.tracking.qp.answer.ROOM", 0.1 * ROOM)
-    for backend in (OsqpBackend(), QpsolversBackend("daqp"), QpsolversBackend("proxqp")):
+    for backend in (make_backend("osqp"), QpsolversBackend("daqp"), QpsolversBackend("proxqp")):
         answer = backend.solve(problem)
         assert answer.solved or isinstance(backend, QpsolversBackend)
         assert not answer.solved or flaw(problem, answer) is None
