@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+_LONG_WORD = re.compile(r"(\S{60})\S{440,}")
+"""Names and values that nobody would read in a sentence."""
 
 
 class PreviewWalkError(Exception):
@@ -18,7 +22,7 @@ class InvalidInput(PreviewWalkError, ValueError):
     """
 
     def __init__(self, message: str, argument: str | None = None) -> None:
-        super().__init__(message)
+        super().__init__(_LONG_WORD.sub(r"\1 (and more)", message))
         self.argument = argument
 
     def __reduce__(self) -> tuple[type[InvalidInput], tuple[str, str | None]]:
