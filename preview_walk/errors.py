@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+_LONG_WORD = re.compile(r"(\S{60})\S{440,}")
+"""Names and values that nobody would read in a sentence."""
+
+
+def in_short(sentence: str) -> str:
+    """Return a sentence with its endless words cut."""
+    return _LONG_WORD.sub(r"\1 (and more)", sentence)
 
 
 class PreviewWalkError(Exception):
@@ -18,7 +27,7 @@ class InvalidInput(PreviewWalkError, ValueError):
     """
 
     def __init__(self, message: str, argument: str | None = None) -> None:
-        super().__init__(message)
+        super().__init__(in_short(message))
         self.argument = argument
 
     def __reduce__(self) -> tuple[type[InvalidInput], tuple[str, str | None]]:

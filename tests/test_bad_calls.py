@@ -66,7 +66,7 @@ SETTINGS: dict[str, Any] = FEW | {
 }  # fmt: skip
 WHOLE = {name: value for name, value in SETTINGS.items() if name != "visuals"}
 
-SLOW = ("run_in_viewer", "plot", "plot_all", "write_picture")
+SLOW = ("run_in_viewer", "plot", "plot_all", "write_picture", "render_video", "frames")
 """What is right of these needs a screen or draws for seconds; tests of their own do that."""
 
 Case = tuple[Callable[..., object], dict[str, Any]]
@@ -157,6 +157,11 @@ CALLS: dict[str, Case] = {
     "plot_all": (pw.plot_all, {"record": RECORD, "folder": "."}),
     "save_plot": (pw.save_plot, {"record": RECORD, "name": "feet", "path": "feet.svg"}),
     "top_view": (pw.top_view, {"record": RECORD}),
+    "render_video": (pw.render_video, {"record": RECORD, "robot": ROBOT, "path": "walk.mp4"}),
+    "frames": (
+        lambda **given: next(pw.frames(**given)),
+        {"record": RECORD, "robot": ROBOT, "times": (0.0,)},
+    ),
     "run_in_viewer": (pw.run_in_viewer, {"walk": None}),
     "WholeBodyController": (
         pw.WholeBodyController,

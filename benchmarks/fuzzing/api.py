@@ -16,7 +16,9 @@ from fuzzing.verdict import ACCEPTED, REFUSED, Verdict, of_error
 
 TESTS = Path(__file__).parents[2] / "tests"
 TABLES = ("test_bad_calls", "test_arguments", "preview.test_bad_input")
-DRAWN = ("plot", "plot_all", "write_picture", "save_plot", "run_in_viewer")
+DRAWN = (
+    "plot", "plot_all", "write_picture", "save_plot", "run_in_viewer", "render_video", "frames",
+)  # fmt: skip
 """Calls that draw for seconds where they are right."""
 
 

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
+from preview_walk.errors import in_short
+
 
 class SafeStream:
     """A text stream whose writes do not fail.
@@ -83,7 +85,7 @@ def _fill_closed() -> None:
 
 def complain(sentence: str) -> None:
     """Print one line on stderr."""
-    print(f"preview-walk: {' '.join(sentence.split())}", file=sys.stderr, flush=True)
+    print(f"preview-walk: {in_short(' '.join(sentence.split()))}", file=sys.stderr, flush=True)
 
 
 def say(text: str) -> None:

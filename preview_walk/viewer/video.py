@@ -11,6 +11,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from preview_walk.arguments import instance_of, real_array, shown
+from preview_walk.errors import InvalidInput
 from preview_walk.files import as_path
 from preview_walk.geometry.poses import midfeet
 from preview_walk.offscreen import RenderError, off_screen
@@ -45,8 +47,13 @@ def frames(
         size: height and width of a picture, pixels.
 
     Raises:
+        InvalidInput: an argument that cannot be, or a record of another robot.
         RenderError: there is no OpenGL to render with.
     """
+    require_pictures(record, robot)
+    wanted = real_array(times, "times", "times in s")
+    if wanted.ndim != 1 or np.isnan(wanted).any():
+        raise InvalidInput(f"times must be a row of times in s, got {shown(times)}.", "times")
     model = visual_model(robot)
     model.vis.global_.offheight, model.vis.global_.offwidth = size
     if mujoco.__version__.startswith("3."):  # whose floor shows specks of its own shadow
@@ -73,6 +80,24 @@ def frames(
             yield renderer.render()
 
 
+def require_pictures(record: Record, robot: Robot) -> None:
+    """Raise `InvalidInput` unless this robot can be drawn as a record has it."""
+    instance_of(record, Record, "record")
+    instance_of(robot, Robot, "robot")
+    if not len(record):
+        raise InvalidInput(
+            "a film needs a record of at least one tick, got an empty one.", "record"
+        )
+    if record.q.shape[1] != robot.pin.nq:
+        raise InvalidInput(
+            f"robot must be the one that walked, with {record.q.shape[1]} positions, "
+            f"got {robot.name} with {robot.pin.nq}.",
+            "robot",
+        )
+    if not (np.isfinite(record.q).all() and np.isfinite(record.left_foot_ref[0]).all()):
+        raise InvalidInput("a film needs a record of finite positions, got others.", "record")
+
+
 def _smooth(path: Array, ticks: int) -> Array:
     """Return a path (N, 3) averaged over so many ticks before and after each."""
     padded = np.pad(path, ((ticks + 1, ticks), (0, 0)), mode="edge")
@@ -85,10 +110,12 @@ def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> 
     """Write an mp4 of a recorded walk in real time and return its path.
 
     Raises:
+        InvalidInput: an argument that cannot be, or a record of another robot.
         RenderError: it cannot be rendered or encoded.
     """
     import imageio.v2 as imageio
 
+    require_pictures(record, robot)
     target = as_path(path)
     count = max(1, int((record.time[-1] - record.time[0]) * FPS))
     times = record.time[0] + np.arange(count) / FPS
