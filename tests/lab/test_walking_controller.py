@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable
-from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from lab_walks import XML, History, assert_followed, walk
 
 import preview_walk as pw
-from preview_walk.errors import InvalidInput, RobotError
+from preview_walk.errors import InvalidInput
 from preview_walk.lab.walking_controller import WalkingController
-from preview_walk.robots.reading.description import models_folder
-from preview_walk.types import Array
-
-XML = models_folder() / "humanoid-walker.xml"
-CASES = Path(__file__).parents[1] / "robots" / "cases"
-History = dict[str, Array]
 
 
 @pytest.fixture
@@ -33,24 +26,6 @@ def lab() -> tuple[WalkingController, History]:
     model = mujoco.MjModel.from_xml_path(str(XML))
     controller = WalkingController(model, mujoco.MjData(model))
     return controller, controller.run_walking(n_steps=6)
-
-
-def assert_followed(history: History, height: float = 0.0) -> None:
-    """Hold a walk to its plan."""
-    assert np.sqrt(np.mean((history["com"] - history["com_ref"]) ** 2, axis=0)).max() < 2e-3
-    assert np.sqrt(np.nanmean((history["zmp"] - history["zmp_ref"]) ** 2, axis=0)).max() < 0.02
-    for foot in ("left_foot", "right_foot"):
-        sole, planned = history[foot][:, :3, 3], history[f"{foot}_ref"][:, :3, 3]
-        assert np.abs(sole - planned).max() < 8e-3
-        assert sole[-1, 2] == pytest.approx(height, abs=5e-3)
-
-
-def walk(spec: mujoco.MjSpec, n_steps: int = 2) -> History:
-    model = spec.compile()
-    controller = WalkingController(model, mujoco.MjData(model))
-    history = controller.run_walking(n_steps)
-    assert controller.fall is None
-    return history
 
 
 def test_the_lab_walks(lab: tuple[WalkingController, History]) -> None:
@@ -169,58 +144,6 @@ def test_a_com_height_and_a_gait_of_ones_own(spec: mujoco.MjSpec) -> None:
     assert np.diff(history["time"]) == pytest.approx(0.004)
 
 
-def servos(spec: mujoco.MjSpec) -> None:
-    for motor in spec.actuators:
-        limit = tuple(motor.ctrlrange)
-        motor.set_to_position(kp=150.0)
-        motor.forcerange, motor.forcelimited = limit, 1
-        motor.ctrlrange = (-0.5, 0.5)
-
-
-def gears(spec: mujoco.MjSpec) -> None:
-    for motor in spec.actuators:
-        motor.gear[0] = -motor.ctrlrange[1]
-        motor.ctrlrange = (-1.0, 1.0)
-
-
-def springs(spec: mujoco.MjSpec) -> None:
-    for joint in spec.joints[1:]:
-        joint.stiffness = (20.0, 0.0, 0.0)
-
-
-def higher_floor(spec: mujoco.MjSpec) -> None:
-    spec.geom("floor").pos = (0.0, 0.0, 0.3)
-
-
-def furniture(spec: mujoco.MjSpec) -> None:
-    """Put a ball on the floor, before the robot in the state's order."""
-    ball = spec.worldbody.add_body(name="ball", pos=(2.0, 0.0, 0.1))
-    ball.add_freejoint()
-    ball.add_geom(size=(0.1, 0.0, 0.0), contype=3, conaffinity=3, mass=1.0)
-
-
-def contact_pairs(spec: mujoco.MjSpec) -> None:
-    """Let the soles touch the floor by explicit pairs alone."""
-    for foot in ("left_foot", "right_foot"):
-        spec.geom(foot).contype = 0
-        spec.add_pair(geomname1=foot, geomname2="floor", friction=(0.6, 0.6, 0.005, 1e-4, 1e-4))
-
-
-def slow_physics(spec: mujoco.MjSpec) -> None:
-    spec.option.timestep = 0.005
-    spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_PYRAMIDAL, 1.0
-
-
-@pytest.mark.parametrize(
-    "change", [servos, gears, springs, higher_floor, furniture, contact_pairs, slow_physics]
-)
-def test_models_that_are_made_otherwise(
-    spec: mujoco.MjSpec, change: Callable[[mujoco.MjSpec], None]
-) -> None:
-    change(spec)
-    assert_followed(walk(spec), 0.3 if change is higher_floor else 0.0)
-
-
 def test_soles_too_wide_for_the_labs_steps_are_set_further_apart(spec: mujoco.MjSpec) -> None:
     for foot in ("left_foot", "right_foot"):
         spec.geom(foot).size[1] = 0.06
@@ -240,45 +163,6 @@ def test_a_push_that_fells_it_is_told(spec: mujoco.MjSpec) -> None:
         history = controller.run_walking(2)
     assert controller.fall is not None
     assert history["time"][-1] <= controller.fall[0] < 4.0
-
-
-@pytest.mark.parametrize(
-    ("spoil", "sentence"),
-    [
-        (
-            lambda spec: spec.delete(spec.geom("floor")),
-            "the model has no floor: expected a level plane that both feet can touch",
-        ),
-        (
-            lambda spec: setattr(spec.option, "gravity", (0.0, 0.0, -1.62)),
-            "gravity must be (0, 0, -9.81) m/s^2, got [0.0, 0.0, -1.62]",
-        ),
-        (
-            lambda spec: spec.delete(spec.joint("root")),
-            "the base 'pelvis' must have a free joint to walk with",
-        ),
-        (
-            lambda spec: setattr(spec.actuators[3], "dyntype", mujoco.mjtDyn.mjDYN_INTEGRATOR),
-            "the actuator 'left_knee' cannot give a torque at once; "
-            "expected a motor, or a position or velocity servo",
-        ),
-        (
-            lambda spec: spec.add_actuator(
-                target="left_knee", trntype=mujoco.mjtTrn.mjTRN_JOINT
-            ).set_to_motor(),
-            "the joint 'left_knee' has two actuators; expected one",
-        ),
-    ],
-)
-def test_models_that_cannot_walk(
-    spec: mujoco.MjSpec, spoil: Callable[[mujoco.MjSpec], object], sentence: str
-) -> None:
-    if "free joint" in sentence:
-        spec.delete(spec.keys[0])
-    spoil(spec)
-    model = spec.compile()
-    with pytest.raises(RobotError, match=f"^{re.escape(sentence)}$"):
-        WalkingController(model, mujoco.MjData(model))
 
 
 def test_an_interval_between_physics_steps_is_refused(spec: mujoco.MjSpec) -> None:
@@ -352,9 +236,3 @@ def test_an_attribute_that_would_be_ignored_is_refused(spec: mujoco.MjSpec) -> N
             setattr(controller, name, 0.1)
     controller.com_height = 0.79
     assert controller.run_walking(0)["com"][-1, 2] == pytest.approx(0.79, abs=2e-3)
-
-
-def test_a_scene_that_holds_the_robot_is_told() -> None:
-    model = mujoco.MjModel.from_xml_path(str(CASES / "weld_active.xml"))
-    with pytest.raises(RobotError, match=r"^the scene holds the robot by the weld .* expected it"):
-        WalkingController(model, mujoco.MjData(model))

@@ -121,13 +121,17 @@ class TickProblem:
             [robot.soles[foot] for foot in self.contacts], friction
         )
         self._normal_high = self.contact_high[16::17]
+        self._set_limits(robot)
+        self.mass: Array = np.zeros((nv, nv))
+        self.bias: Array = np.zeros(nv)
+
+    def _set_limits(self, robot: Robot) -> None:
+        """Write the limits of the torques, and what those of positions and speeds follow from."""
         self.limits: Array = np.zeros((2, 2 * self.n))
         self.limits[:, : self.n] = -robot.effort, robot.effort
         self._positions = LIMIT_RATE**2 * np.stack([robot.q_lower, robot.q_upper])
         self._speeds = LIMIT_RATE * np.stack([-robot.v_limit, robot.v_limit])
         self._reach = np.zeros((2, self.n))
-        self.mass: Array = np.zeros((nv, nv))
-        self.bias: Array = np.zeros(nv)
 
     def __repr__(self) -> str:
         standing = " and ".join(self.contacts) or "no foot"
