@@ -84,7 +84,7 @@ class Walk:
             pushes: forces on the robot's bodies; None: none.
             seed: seeds whatever is random in the run; kept with the record.
             gains: weights and gains of the tracker; None takes the defaults.
-            solver: "osqp" or another backend of qpsolvers.
+            solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: of a swing's apex above the higher of its two soles, m; None takes one in
                 proportion to the leg.
             com_height: of the CoM above the soles while standing, m; None takes that of the robot's
