@@ -81,7 +81,7 @@ class Walker:
             q: (nq,) configuration in which the robot stands on the plan's first soles, at rest.
             friction: Coulomb friction between soles and ground.
             gains: weights and gains of the tracker; None takes the defaults.
-            solver: "osqp" or another backend of qpsolvers.
+            solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
             com_generator: "preview", "mpc" or "dcm".
 

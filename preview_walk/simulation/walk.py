@@ -92,7 +92,7 @@ class Walk:
             pushes: forces on the robot's bodies; None: none.
             seed: seeds whatever is random in the run; kept with the record.
             gains: weights and gains of the tracker; None takes the defaults.
-            solver: "osqp" or another backend of qpsolvers.
+            solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: of a swing's apex above the higher of its two soles, m; None: by the leg.
             com_height: of the CoM above the soles while standing, m; None: as in the posture.
             com_generator: what leads the CoM along the plan: "preview" (preview control), "mpc"

@@ -74,7 +74,7 @@ class WholeBodyController:
             robot: from `load_robot`.
             gains: weights and gains of the tasks.
             friction: Coulomb friction between soles and ground.
-            solver: "osqp", kept warm from tick to tick, or an installed backend of qpsolvers.
+            solver: "osqp", kept warm from tick to tick, "daqp", or a backend of qpsolvers.
 
         Raises:
             InvalidInput: there is no such solver.

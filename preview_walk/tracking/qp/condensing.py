@@ -13,7 +13,8 @@ have no inverse weight: any w, even a poor one, comes with accelerations that ob
 to machine precision.
 
 Joint limits are rarely reached, so they enter only once they have been: the solution without a
-limit that it obeys is the solution with it.
+limit that it obeys is the solution with it. Last, variables x = factor^T w and rows of length one
+make the QP that of the nearest point of a polyhedron, which any solver finds at its best.
 """
 
 from __future__ import annotations
@@ -141,7 +142,7 @@ class CondensedQP:
         """Write the rows, map and bounds of the limits of the working set."""
         p, at, dofs = self.problem, self.problem.m, self._dofs
         end = at + len(dofs)
-        # Of the symmetric mass matrix only the upper triangle is filled.
+        # Only the upper triangle of the mass matrix is promised, as `Dynamics` says.
         self._rows[at:end] = np.where(self._below, p.mass[:, dofs].T, p.mass[dofs])
         np.negative(p.bias[dofs], out=self._residual[at:end])
         self._residual[end:] = 0.0
