@@ -6,13 +6,13 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-_LONG_WORD = re.compile(r"(\S{60})\S{440,}")
+_LONG_WORD = re.compile(r"(\S{60})\S{440,}(\S\S)")
 """Names and values that nobody would read in a sentence."""
 
 
 def in_short(sentence: str) -> str:
     """Return a sentence with its endless words cut."""
-    return _LONG_WORD.sub(r"\1 (and more)", sentence)
+    return _LONG_WORD.sub(r"\1 (and more)\2", sentence)
 
 
 class PreviewWalkError(Exception):

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput, PreviewWalkError
 
 LONG = 300
@@ -36,6 +35,8 @@ def as_path(path: str | os.PathLike[str]) -> Path:
     except TypeError:
         found = Path("\0")
     if "\0" in str(found):
+        from preview_walk.arguments import shown  # with NumPy, which the command loads late
+
         raise InvalidInput(f"a file's name must be a path, got {shown(path)}.", argument="path")
     return found
 
