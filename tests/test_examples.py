@@ -9,11 +9,14 @@ from pathlib import Path
 
 import pytest
 
-SLOW = ("video",)
-"""Without a graphics card it renders for minutes; `test_video.py` tests what it does."""
+ELSEWHERE = ("video", "preview_horizon", "active_suspension", "servo", "crane")
+"""A film renders for minutes without a graphics card; `test_video.py` tests what it does. The
+others' output is compared with their pages by `test_documents.py`."""
 
 EXAMPLES = sorted(
-    path for path in (Path(__file__).parents[1] / "examples").glob("*.py") if path.stem not in SLOW
+    path
+    for path in (Path(__file__).parents[1] / "examples").glob("*.py")
+    if path.stem not in ELSEWHERE
 )
 
 

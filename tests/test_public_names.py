@@ -42,11 +42,11 @@ def test_planning_alone_loads_no_engine_and_a_wrong_option_nothing_at_all() -> N
 def test_every_object_is_told_in_two_lines(talos: pw.Robot) -> None:
     plan = pw.FootstepPlanner(0.2, talos.step_width, 0.8).generate_footsteps(2)
     walk = pw.Walk(talos, plan).run(until=0.02)
-    record, walker = walk.record(), walk.walker
+    record, walker, preview = walk.record(), walk.walker, pw.PreviewController(0.8, 0.005, 1.6)
     for thing in (
         *(talos, plan, plan[2], walk, walk.limits, walk.plant, walker, walker.body),
         *(walker.body.dynamics, walker.body.problem({"left": 900.0}), walker.gains),
-        *(walker.pattern.controller, walker.pattern.controller.design, pw.zmp_reference(plan)),
+        *(preview, preview.design, pw.zmp_reference(plan)),
         *(record, record.run, record.plans, record.plans[0], record.summary()),
         *(pw.Push(1.0, 0.2, (1.0, 2.0, 3.0)), pw.FootstepPlanner(), pw.Stride()),
     ):

@@ -66,7 +66,8 @@ def _cut_walks() -> None:
 
     def few(walk: Walk, until: float | None = None, progress: object = None) -> Walk:
         function = progress if callable(progress) else None
-        if until is None and not walk._commands.endless:
+        if until is None:
+            walk._commands.require_end()
             until = walk.time + 3.0 / 500.0
         return usual(walk, until, function)
 

@@ -168,8 +168,11 @@ def test_a_push_that_fells_it_is_told(spec: mujoco.MjSpec) -> None:
 def test_an_interval_between_physics_steps_is_refused(spec: mujoco.MjSpec) -> None:
     model = spec.compile()
     controller = WalkingController(model, mujoco.MjData(model))
-    for dt in (0.003, 0.0, -0.01, np.nan):
-        sentence = f"dt must be a positive multiple of the model's timestep of 0.002 s, got {dt}."
+    multiple = "dt must be a positive multiple of the model's timestep of 0.002 s, got {}."
+    for dt, sentence in (
+        *((dt, multiple.format(dt)) for dt in (0.003, 0.0, -0.01)),
+        (np.nan, "dt must be finite (s), got nan."),
+    ):
         with pytest.raises(InvalidInput, match=f"^{re.escape(sentence)}$"):
             controller.run_walking(6, dt)
 

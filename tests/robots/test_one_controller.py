@@ -13,7 +13,7 @@ from preview_walk.robots.reading.facts import Description, SoleFact
 
 PACKAGE = Path(preview_walk.__file__).parent
 
-DEFAULT_ROBOT = ("cli/options.py", "talos")
+DEFAULT_ROBOT = ("cli/option_table.py", "talos")
 """The robot that walks where none is named."""
 
 COMMON = {"left_foot", "right_foot"}

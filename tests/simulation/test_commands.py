@@ -155,11 +155,7 @@ def test_a_refused_command_leaves_the_walk_as_it_was(talos: Robot) -> None:
     walk = pw.Walk.standing(talos)
     walk.command(0.2, 0.0, 0.0)
     plan = walk.plan
-    sentence = (
-        "a velocity command must be (vx, vy, yaw rate), finite, in m/s and rad/s, "
-        "got (0.1, nan, 0.0)."
-    )
-    with pytest.raises(InvalidInput, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(InvalidInput, match=r"^vy must be finite \(m/s\), got nan\.$"):
         walk.command(0.1, float("nan"), 0.0)
     assert walk.plan is plan
     walk.run(until=3.0)  # replans at the lifts on the way
