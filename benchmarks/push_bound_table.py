@@ -85,8 +85,6 @@ def own_limits(name: str) -> PushGait:
     The swing speed is a mean: of a foot that is at its top speed, over the rest of its way.
     """
     import preview_walk as pw
-    from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE
-    from preview_walk.stabilizer.step_adaptation import SPEED_SHARE
 
     gait = GAITS[name]
     robot = pw.load_robot(name.lower())
@@ -100,8 +98,8 @@ def own_limits(name: str) -> PushGait:
         max_width=limits.gait.max_width,
         min_swing_time=shortest,
         max_swing_time=longest,
-        swing_speed=sum(SPEED_SHARE) * limits.swing_speed,
-        short_double_support=SHORT_PAUSE,
+        swing_speed=sum(pw.SPEED_SHARE) * limits.swing_speed,
+        short_double_support=pw.SHORT_PAUSE,
     )
 
 

@@ -24,7 +24,7 @@ import numpy as np
 from tick_solvers import exact
 
 import preview_walk as pw
-from preview_walk.tracking.qp.solution import Backend, Solution
+from preview_walk import Backend, Solution
 
 EVERY = 10
 """So many ticks lie between two whose torques are compared."""

@@ -10,8 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk import gait_limits
-from preview_walk.analysis.top_view import draw_top_view
+from preview_walk import draw_top_view, gait_limits
 
 
 def main() -> None:

@@ -10,8 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import preview_walk as pw
-from preview_walk import frames
-from preview_walk.viewer.video import FPS
+from preview_walk import FPS, frames
 
 COUNT = 6
 

@@ -61,6 +61,8 @@ from .pattern.check import require_walkable as require_walkable
 from .stabilizer.com_feedback import com_feedback as com_feedback
 from .stabilizer.disturbance import observe as observe
 from .stabilizer.recovery import recover as recover
+from .stabilizer.recovery_steps import SHORT_PAUSE as SHORT_PAUSE
+from .stabilizer.step_adaptation import SPEED_SHARE as SPEED_SHARE
 from .stabilizer.step_adaptation import adapt_step as adapt_step
 from .stabilizer.step_limits import StepLimits as StepLimits
 from .stabilizer.step_limits import step_limits as step_limits
@@ -88,6 +90,8 @@ from .tracking.gains import TrackingGains as TrackingGains
 from .tracking.tasks import Task as Task
 from .tracking.whole_body import WholeBodyController as WholeBodyController
 from .tracking.qp.problem import TickProblem as TickProblem
+from .tracking.qp.solution import Backend as Backend
+from .tracking.qp.solution import Solution as Solution
 from .controller.robot_limits import command_limits as command_limits
 from .controller.robot_limits import gait_limits as gait_limits
 from .controller.walker import Walker as Walker
@@ -127,6 +131,8 @@ from .analysis.plots import plot as plot
 from .analysis.plots import plot_all as plot_all
 from .analysis.plots import save_plot as save_plot
 from .analysis.plots import top_view as top_view
+from .analysis.top_view import draw_top_view as draw_top_view
+from .viewer.video import FPS as FPS
 from .viewer.video import frames as frames
 from .viewer.video import render_video as render_video
 from .viewer.window import run_in_viewer as run_in_viewer
