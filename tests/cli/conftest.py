@@ -1,29 +1,21 @@
-"""Fixtures of the command: a simulation that costs nothing, a folder for the results."""
+"""Signals as a terminal gives them, for every test of the command."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from types import SimpleNamespace
+import signal
+from collections.abc import Iterator
 
 import pytest
-from cli_stand_in import Simulation, blank
-
-import preview_walk as pw
-from preview_walk.analysis import plots
 
 
-@pytest.fixture
-def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Simulation:
-    made = Simulation()
-    monkeypatch.setattr(pw, "simulate", made)
-    monkeypatch.setattr(pw, "simulate_commands", made.by_commands)
-    if not request.node.get_closest_marker("real_plots"):
-        monkeypatch.setattr(plots, "plot", lambda _, path: blank(path))
-        monkeypatch.setattr(plots, "save_plot", lambda _, name, path: blank(path))
-    monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, step_width=0.17))
-    return made
-
-
-@pytest.fixture
-def out(tmp_path: Path) -> Path:
-    return tmp_path / "results"
+@pytest.fixture(autouse=True)
+def signals_are_not_ignored() -> Iterator[None]:
+    """Undo `nohup` for the tests: the command leaves a signal alone that was ignored before it."""
+    before = {
+        number: signal.signal(number, signal.SIG_DFL)
+        for number in (signal.SIGHUP, signal.SIGTERM)
+        if signal.getsignal(number) is signal.SIG_IGN
+    }
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
