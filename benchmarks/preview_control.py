@@ -12,6 +12,7 @@ import importlib
 import importlib.util
 import time
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -147,7 +148,7 @@ def main() -> None:
     print("whole walks: time per sample of both axes")
     for duration in (10.0, 60.0, 600.0, 3600.0):
         long = walk(duration)
-        seconds = best(lambda long=long: controller.trajectory(long), 3)  # type: ignore[misc]
+        seconds = best(partial(controller.trajectory, long), 3)
         print(
             f"  {duration:>6.0f} s {1e3 * seconds:>10.2f} ms {1e9 * seconds / len(long):>8.0f} ns"
         )

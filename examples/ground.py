@@ -1,4 +1,4 @@
-"""TALOS walks where the ground is not flat: a slope, ramps, stepping stones, low stairs.
+"""TALOS walks where the ground is not flat: up and down a slope, over ramps, on stepping stones.
 
 python examples/ground.py --out ground.png
 """

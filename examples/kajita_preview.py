@@ -1,9 +1,10 @@
-"""Redraw the figures of Kajita et al., "Biped walking pattern generation by using preview control
-of zero-moment point", ICRA 2003: gains against preview time, CoM and ZMP with a long and a short
-preview, and the ZMP error against the horizon.
+"""Redraw the figures of Kajita et al., ICRA 2003, the paper of the preview-controlled walk.
+
+"Biped walking pattern generation by using preview control of zero-moment point": gains against
+preview time, CoM and ZMP with a long and a short preview, and the ZMP error against the horizon.
 
     python examples/kajita_preview.py --out kajita_preview.png
-"""  # noqa: D205
+"""
 
 import argparse
 

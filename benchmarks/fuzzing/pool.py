@@ -116,8 +116,8 @@ def try_all(
         done = 0
         while busy:
             ready = wait(list(busy), PATIENCE)
-            for connection in ready or list(busy):
-                worker, number = busy.pop(connection)  # type: ignore[index]
+            for connection in [c for c in busy if c in ready] or list(busy):
+                worker, number = busy.pop(connection)
                 yield number, worker.verdict()
                 done += 1
                 told(done)

@@ -41,9 +41,9 @@ class ComState:
 
     array: Array
 
-    def __reduce__(self) -> tuple[type[ComState], tuple[Array]]:
+    def __reduce__(self) -> tuple[object, ...]:
         """Pickle so that the array is read-only again afterwards."""
-        return _locked, (self.array,)  # type: ignore[return-value]
+        return _locked, (self.array,)
 
     def __repr__(self) -> str:
         numbers = (f"[{row[0]:.4g}, {row[1]:.4g}]" for row in self.array[[0, 1, 4]])

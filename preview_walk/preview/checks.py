@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,7 @@ from preview_walk.errors import InvalidInput
 from preview_walk.types import Array
 
 
+@dataclass(frozen=True, eq=False)
 class Value:
     """A frozen dataclass whose arrays are read-only, also after pickling and deep-copying."""
 
@@ -22,7 +23,7 @@ class Value:
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
         """Pickle the fields alone: what is derived from them is derived again."""
-        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
+        names = [field.name for field in fields(self)]
         return type(self), tuple(getattr(self, name) for name in names)
 
 

@@ -103,8 +103,6 @@ class RunFacts:
         # Facts that are not known (nan) are equal.
         return isinstance(other, RunFacts) and self.as_dict() == other.as_dict()
 
-    __hash__ = None  # type: ignore[assignment]
-
     def __repr__(self) -> str:
         """Return one line: robot, rates and outcome."""
         end = f"fell at {self.fall_time} s" if self.fell else "did not fall"

@@ -6,27 +6,13 @@ import control
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from preview.example_plants import KAJITA, kajita, two_by_two
 from scipy.sparse.linalg import spsolve
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.cart_table import cart_table
-from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.response import Recursion, preview_effect, track
 from preview_walk.types import Array
-
-KAJITA = cart_table(0.814, 0.005)
-
-
-def kajita(horizon: int = 320) -> PreviewDesign:
-    return preview_gains(KAJITA, 1.0, 0.0, 1e-6, horizon)
-
-
-def two_by_two() -> control.StateSpace:
-    """Return a plant of 4 states, 2 inputs, 2 outputs, one mode unstable."""
-    rng = np.random.default_rng(7)
-    a = np.diag([1.05, 0.9, 0.7, 0.8]) + 0.1 * np.triu(rng.normal(size=(4, 4)), 1)
-    return control.ss(a, rng.normal(size=(4, 2)), rng.normal(size=(2, 4)), 0, 0.1)
 
 
 def optimum(

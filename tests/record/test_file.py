@@ -23,6 +23,15 @@ from preview_walk.record.record import Record
 PARTS = dict[str, bytes]
 
 
+def refused_within_10_mb(path: Path, why: str) -> None:
+    tracemalloc.start()
+    with pytest.raises(InvalidInput, match=why):
+        Record.load(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 10e6
+
+
 def npy(value: Any) -> bytes:
     """Return an array as the bytes of a .npy file."""
     buffer = io.BytesIO()
@@ -152,23 +161,13 @@ def test_a_bomb_takes_no_memory(parts: PARTS, tmp_path: Path) -> None:
             for _ in range(60):
                 member.write(bytes(8 * n // 60))
     assert path.stat().st_size < 2_000_000
-    tracemalloc.start()
-    with pytest.raises(InvalidInput, match="would unpack to"):
-        Record.load(path)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 10e6
+    refused_within_10_mb(path, "would unpack to")
 
 
 def test_a_shape_that_lies_takes_no_memory(parts: PARTS, tmp_path: Path) -> None:
     lie = {"com.npy": header((40_000_000, 3)) + bytes(24)}
     path = write(tmp_path / "x.npz", {**parts, **lie})
-    tracemalloc.start()
-    with pytest.raises(InvalidInput, match="states the shape"):
-        Record.load(path)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 10e6
+    refused_within_10_mb(path, "states the shape")
 
 
 def test_a_size_that_the_directory_lies_about_is_not_believed(parts: PARTS, tmp_path: Path) -> None:

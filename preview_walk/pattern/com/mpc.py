@@ -44,7 +44,7 @@ class MpcState(ComState):
     solved: int = 0
     plan: FootstepPlan | None = None
 
-    def __reduce__(self) -> tuple[object, ...]:  # type: ignore[override]
+    def __reduce__(self) -> tuple[object, ...]:
         """Pickle so that the array is read-only again afterwards."""
         return _locked, (self.array, self.path, self.solved, self.plan)
 

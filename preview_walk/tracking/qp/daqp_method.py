@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import numpy as np
 
 from preview_walk.errors import InvalidInput
@@ -48,7 +50,7 @@ class DirectDaqp:
 def require_daqp() -> None:
     """Raise `InvalidInput` where the package daqp is missing."""
     try:
-        import daqp  # noqa: F401
+        import_module("daqp")
     except ImportError:
         raise InvalidInput(
             "solver 'daqp' needs the package daqp, which is not installed; "
