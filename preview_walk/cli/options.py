@@ -16,7 +16,7 @@ from preview_walk.cli.option_table import (
     DEFAULT_STEPS,
     STEPPING,
 )
-from preview_walk.cli.parser import join_negative_values, make_parser
+from preview_walk.cli.parser import make_parser
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     parser = make_parser()
-    found = parser.parse_args(join_negative_values(arguments))
+    found = parser.read(arguments)
     if len(found.velocity) != len(found.duration):
         parser.error(
             "--velocity: must come with one --duration each, got "

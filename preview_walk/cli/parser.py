@@ -46,6 +46,14 @@ def make_parser() -> Parser:
 class Parser(argparse.ArgumentParser):
     """An argument parser that complains in one sentence."""
 
+    def read(self, arguments: list[str]) -> argparse.Namespace:
+        """Return the options; exit with code 2 and one sentence when they can't be read."""
+        # argparse takes the dashes of `--turn=--` for the end of the options, and the value is [].
+        for option in OPTIONS:
+            if f"{option.name}=--" in arguments:
+                self.error(f"argument {option.name}: expected one argument")
+        return self.parse_args(join_negative_values(arguments))
+
     def error(self, message: str) -> NoReturn:
         """Print one sentence that names the option and what is allowed; exit with code 2."""
         missing = re.match(r"argument (--[\w-]+): expected one argument", message)

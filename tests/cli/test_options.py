@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from preview_walk.cli import main as cli
 from preview_walk.cli import options as cli_options
-from preview_walk.cli.option_table import OPTIONS
+from preview_walk.cli.option_table import OPTIONS, Option
 from preview_walk.cli.options import parse
 
 
@@ -261,3 +261,13 @@ def test_python_m_is_the_same_command() -> None:
     assert done.stderr == (
         "preview-walk: --steps: must be a whole number from 1 to 100000, got 'x'.\n"
     )
+
+
+@pytest.mark.parametrize("option", OPTIONS, ids=lambda option: option.name)
+def test_dashes_are_no_value(option: Option, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        parse([f"{option.name}=--"])
+    assert end.value.code == 2
+    sentence = complaint(capsys)
+    assert f"{option.name}: must be" in sentence
+    assert sentence.endswith("got nothing.")
