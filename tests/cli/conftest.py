@@ -1,11 +1,17 @@
-"""Signals as a terminal gives them, for every test of the command."""
+"""For every test of the command: signals as a terminal gives them, a simulation that costs nothing."""
 
 from __future__ import annotations
 
 import signal
 from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from cli_stand_in import Simulation, blank
+
+import preview_walk as pw
+from preview_walk.analysis import plots
 
 
 @pytest.fixture(autouse=True)
@@ -19,3 +25,20 @@ def signals_are_not_ignored() -> Iterator[None]:
     yield
     for number, handler in before.items():
         signal.signal(number, handler)
+
+
+@pytest.fixture
+def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Simulation:
+    made = Simulation()
+    monkeypatch.setattr(pw, "simulate", made)
+    monkeypatch.setattr(pw, "simulate_commands", made.by_commands)
+    if not request.node.get_closest_marker("real_plots"):
+        monkeypatch.setattr(plots, "plot", lambda _, path: blank(path))
+        monkeypatch.setattr(plots, "save_plot", lambda _, name, path: blank(path))
+    monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, step_width=0.17))
+    return made
+
+
+@pytest.fixture
+def out(tmp_path: Path) -> Path:
+    return tmp_path / "results"
