@@ -145,6 +145,17 @@ class Feet:
             self.targets[foot] = target
         return early
 
+    def fly(self, targets: Mapping[Foot, FootTarget]) -> None:
+        """Take both feet off the ground, to do what a flight asks for."""
+        for foot in FEET:
+            self.states[foot] = replace(self.states[foot], contact=False, felt=False)
+            self.targets[foot] = targets[foot]
+
+    def land(self, t: float) -> None:
+        """Stand on both feet from time t (s) on: one that does not feel the ground sinks."""
+        for foot in FEET:
+            self.states[foot] = FootState(True, True, t, t, None)
+
     def _swing(self, t: float, step: Footstep, sole: Array, stood: Array, touching: bool) -> bool:
         """Move a foot along its swing; return whether it has just touched down.
 

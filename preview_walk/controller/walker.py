@@ -8,6 +8,7 @@ import numpy as np
 
 from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.feet import Feet
+from preview_walk.controller.landing import Landing, held_soles, stood_soles
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
@@ -28,7 +29,8 @@ from preview_walk.stabilizer.com_feedback import (
     com_feedback,
 )
 from preview_walk.stabilizer.disturbance import Disturbance, observe
-from preview_walk.stabilizer.flight import Flight, feel, waiting
+from preview_walk.stabilizer.flight import UNFELT, Flight, feel, stand_on
+from preview_walk.stabilizer.lift import Lift, Rise, observe_lift
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
@@ -58,7 +60,8 @@ class Walker:
         reference: of the CoM at the last tick.
         feedback: what the stabilizer asked for at the last tick.
         disturbance: what pushes the DCM, as observed.
-        flight: whether the soles feel the ground.
+        lift: what holds the robot up beside the ground, as observed.
+        flight: whether the robot flies.
     """
 
     def __init__(
@@ -121,6 +124,8 @@ class Walker:
         )
         self._planned_until = -np.inf
         self.flight = Flight()
+        self.lift = Lift()
+        self._landing: Landing | None = None
 
     def __repr__(self) -> str:
         return f"Walker({self.robot.name}, {self.plan!r})"
@@ -167,16 +172,12 @@ class Walker:
         self.body.update(q, v)
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
-        self.flight = feel(self.flight, t, sum(normal_force.values()) / self.weight)
-        if t >= self._planned_until:
-            self._planned_until = t + PLANNING_DT - 1e-9
-            self._recover(t, state)
+        self._feel_ground(t, sum(normal_force.values()) / self.weight)
+        if self.flight.flies:
+            self._fly(t, state)
+        else:
+            self._walk(t, state, normal_force)
         soles = {foot: dynamics.soles[foot].pose for foot in FEET}
-        early = self.feet.follow(t, self.plan, soles, normal_force)
-        if early is not None:
-            plan = early_landing(self.plan, t, early, soles[early], self._recovery)
-            if plan is not None:
-                self.follow(plan)
         self.reference = self.pattern.at(t)
         standing = [soles[foot] for foot in self.feet.standing]
         self.feedback = com_feedback(
@@ -189,11 +190,57 @@ class Walker:
         self._set_tasks()
         return self.body.torques(self.feet.normal_limits(t, self.plan))
 
-    def _recover(self, t: float, state: CentroidalState) -> None:
-        """Observe what pushes the robot, and walk by another plan where recovery has one.
+    def _feel_ground(self, t: float, load: float) -> None:
+        """Notice what lifts the robot, and flight; `load`: of the soles, a share of the weight."""
+        dynamics, planned = self.body.dynamics, 0.0
+        if self.body.solution is not None:
+            planned = float(self.body.solution.wrench[2::6].sum()) / self.weight
+        momentum = dynamics.momentum_jacobian @ dynamics.v
+        now = Rise(t, float(dynamics.com_velocity[2]), load, planned, momentum)
+        self.lift = observe_lift(self.lift, now, self.robot.gravity)
+        if self.lift.lifted:
+            dynamics.add_lift(self.lift.share * self.weight, self.lift.moment)
+        speed = 0.0
+        if load < UNFELT:
+            speed = min(float(np.linalg.norm(dynamics.soles[foot].velocity[:3])) for foot in FEET)
+        self.flight = feel(self.flight, t, load, speed, self.lift.lifted)
 
-        In flight there is nothing to step on: the plan waits.
-        """
+    def _walk(self, t: float, state: CentroidalState, normal_force: Mapping[Foot, float]) -> None:
+        """Follow the plan, or another one where recovery or the ground asks for it."""
+        if self._landing is not None:
+            self._land(t, state)
+        if t >= self._planned_until:
+            self._planned_until = t + PLANNING_DT - 1e-9
+            self._recover(t, state)
+        soles = {foot: self.body.dynamics.soles[foot].pose for foot in FEET}
+        early = self.feet.follow(t, self.plan, soles, normal_force)
+        if early is not None:
+            plan = early_landing(self.plan, t, early, soles[early], self._recovery)
+            if plan is not None:
+                self.follow(plan)
+
+    def _fly(self, t: float, state: CentroidalState) -> None:
+        """Hold the soles ready to land, and the plan's steps back."""
+        lifted, dynamics = self.lift.lifted, self.body.dynamics
+        held = held_soles(self.robot, dynamics, state.velocity[:2] / self.pattern.omega, lifted)
+        step = self.plan.next_lift(t)
+        if self._landing is None or (step is not None and step.lift < t + self.plan.weight_shift):
+            self.follow(stand_on(self.plan, t, held))
+        if self._landing is None or self._landing.lifted != lifted:
+            self._landing = Landing.begin(t, dynamics, lifted)
+        fall = (1.0 - self.lift.share if lifted else 1.0) * self.robot.gravity
+        self.feet.fly(self._landing.targets(t, state, held, fall))
+
+    def _land(self, t: float, state: CentroidalState) -> None:
+        """Stand where the robot has come down; what pushed it before is forgotten."""
+        self._landing = None
+        self.disturbance, self._recovery = Disturbance(), RecoveryMemory()
+        self.follow(stand_on(self.plan, t, stood_soles(self.body.dynamics)))
+        self.pattern.land(t, state.com)
+        self.feet.land(t)
+
+    def _recover(self, t: float, state: CentroidalState) -> None:
+        """Observe what pushes the robot, and walk by another plan where recovery has one."""
         omega = self.pattern.omega
         dcm = state.dcm(omega)
         self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
@@ -205,11 +252,6 @@ class Walker:
             self.pattern.planned_dcm,
             self._free_swing(t),
         )
-        if self.flight.flies:
-            plan = waiting(self.plan, t)
-            if plan is not None:
-                self.follow(plan)
-            return
         decision = recover(situation, self._recovery, self._limits)
         self._recovery = decision.memory
         if decision.plan is not None:

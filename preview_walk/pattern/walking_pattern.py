@@ -118,6 +118,11 @@ class WalkingPattern:
         self._now = self._generator.rejoin(com, sampled.dcm[sample], sampled.zmp[sample])
         self._next, self._next_z = self._step()
 
+    def land(self, t: float, com: Array) -> None:
+        """Go on from a measured CoM (3,) in m at time t (s), after a flight: also in height."""
+        self._now_z = self._lift.initial_state((com[2], 0.0))
+        self.rejoin(t, com[:2])
+
     def _step(self) -> tuple[ComState, ComState]:
         """Return the horizontal and the vertical state one planning tick after the present."""
         return (

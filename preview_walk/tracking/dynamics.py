@@ -166,6 +166,27 @@ class Dynamics:
         self.com_drift += self._gravity
         self.com_velocity = self.com_jacobian @ v
 
+    def add_lift(self, force: float, moment: Array) -> None:
+        """Let the base bear what lifts the robot, until the next `update`.
+
+        Args:
+            force: upward, through the CoM, N.
+            moment: (3,) about the CoM, world axes, N·m.
+        """
+        up = force * self._base_rotation[2]
+        self.bias[:3] -= up
+        self.bias[3:6] -= moment @ self._base_rotation
+        self.bias[3:6] -= np.cross((self.com - self._base_position) @ self._base_rotation, up)
+
+    def spin(self) -> Array:
+        """Return how fast (3,) the whole robot turns, world axes, rad/s.
+
+        So fast its base would turn if all joints were locked now.
+        """
+        matrix = self.momentum_jacobian
+        value: Array = self._base_rotation @ np.linalg.solve(matrix[:, 3:6], matrix @ self.v)
+        return value
+
     def update_momentum(self) -> None:
         """Compute `momentum_drift`; only a momentum task needs it.
 
