@@ -29,7 +29,7 @@ from preview_walk.stabilizer.com_feedback import (
     com_feedback,
 )
 from preview_walk.stabilizer.disturbance import Disturbance, observe
-from preview_walk.stabilizer.flight import UNFELT, Flight, feel, stand_on
+from preview_walk.stabilizer.flight import Flight, feel, stand_on, waiting
 from preview_walk.stabilizer.lift import Lift, Rise, observe_lift
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
@@ -61,7 +61,7 @@ class Walker:
         feedback: what the stabilizer asked for at the last tick.
         disturbance: what pushes the DCM, as observed.
         lift: what holds the robot up beside the ground, as observed.
-        flight: whether the robot flies.
+        flight: whether the soles feel the ground.
     """
 
     def __init__(
@@ -173,7 +173,7 @@ class Walker:
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
         self._feel_ground(t, sum(normal_force.values()) / self.weight)
-        if self.flight.flies:
+        if self.flight.airborne:
             self._fly(t, state)
         else:
             self._walk(t, state, normal_force)
@@ -200,10 +200,9 @@ class Walker:
         self.lift = observe_lift(self.lift, now, self.robot.gravity)
         if self.lift.lifted:
             dynamics.add_lift(self.lift.share * self.weight, self.lift.moment)
-        speed = 0.0
-        if load < UNFELT:
-            speed = min(float(np.linalg.norm(dynamics.soles[foot].velocity[:3])) for foot in FEET)
-        self.flight = feel(self.flight, t, load, speed, self.lift.lifted)
+        ground = max(float(self.plan.sole(foot, t)[2, 3]) for foot in FEET)
+        lower = min(float(dynamics.soles[foot].position[2]) for foot in FEET)
+        self.flight = feel(self.flight, t, load, lower - ground, self.lift.lifted)
 
     def _walk(self, t: float, state: CentroidalState, normal_force: Mapping[Foot, float]) -> None:
         """Follow the plan, or another one where recovery or the ground asks for it."""
@@ -240,7 +239,10 @@ class Walker:
         self.feet.land(t)
 
     def _recover(self, t: float, state: CentroidalState) -> None:
-        """Observe what pushes the robot, and walk by another plan where recovery has one."""
+        """Observe what pushes the robot, and walk by another plan where recovery has one.
+
+        Without ground to step on the plan waits.
+        """
         omega = self.pattern.omega
         dcm = state.dcm(omega)
         self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
@@ -252,6 +254,11 @@ class Walker:
             self.pattern.planned_dcm,
             self._free_swing(t),
         )
+        if self.flight.flies:
+            plan = waiting(self.plan, t)
+            if plan is not None:
+                self.follow(plan)
+            return
         decision = recover(situation, self._recovery, self._limits)
         self._recovery = decision.memory
         if decision.plan is not None:

@@ -13,15 +13,19 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import Heading, compose, midfeet, pose_at, relative, rpy_of
 from preview_walk.types import FEET, Array, Foot
 
-UNFELT = 0.03
+UNFELT = 0.002
 """A sole that carries less than this share of the weight does not feel the ground."""
 
 FLIGHT_TIME = 0.1
 """A robot flies that has felt no ground for so long (s): dropped, it is 49 mm down. The load of
 walks and recovery steps passes from foot to foot with gaps that are shorter."""
 
-AT_REST = 0.02
-"""A sole slower than this (m/s) stands on something, whatever its sensor says."""
+PAUSE = 0.3
+"""The next step waits at least for this time (s), again and again until the ground is felt."""
+
+CLEAR = 0.01
+"""Soles that are higher above the plan's ground than this (m) have left it; lower ones may stand
+there, with sensors that are dead."""
 
 CATCH = 3.0
 """Weight shifts of a plan between a landing and the next step: one to catch the fall, two to
@@ -34,28 +38,50 @@ class Flight:
 
     Attributes:
         felt: when a sole last felt the ground, s.
-        flies: whether the robot is taken to fly.
+        flies: whether the ground has not been felt for a while: no step can be made.
+        airborne: whether the soles have left the ground.
     """
 
     felt: float = inf
     flies: bool = False
+    airborne: bool = False
 
 
-def feel(last: Flight, t: float, load: float, speed: float, lifted: bool) -> Flight:
+def feel(last: Flight, t: float, load: float, clearance: float, lifted: bool) -> Flight:
     """Return whether the robot flies at time t (s).
 
     Args:
         last: what was felt before.
         t: now, s.
         load: of both soles, as a share of the weight.
-        speed: of the slower sole, m/s.
+        clearance: of the lower sole above the plan's ground, m.
         lifted: whether something bears the robot.
     """
     if lifted:
-        return Flight(last.felt, True)
+        return Flight(last.felt, True, True)
     if load > UNFELT or last.felt == inf:
         return Flight(t)
-    return Flight(last.felt, last.flies or (t - last.felt > FLIGHT_TIME and speed > AT_REST))
+    flies = last.flies or t - last.felt > FLIGHT_TIME
+    return Flight(last.felt, flies, last.airborne or (flies and clearance > CLEAR))
+
+
+def waiting(plan: FootstepPlan, t: float) -> FootstepPlan | None:
+    """Return the plan of a robot in flight whose next step waits, or None while none is near.
+
+    A foot that swings already goes to where it was to land.
+
+    Args:
+        plan: the walk.
+        t: now, s.
+    """
+    step = plan.next_lift(t)
+    if step is None or step.lift > t + 0.5 * PAUSE:
+        return None
+    delay = t + PAUSE - step.lift
+    later = plan.steps[plan.steps.index(step) :]
+    return plan.replace_after(
+        t, [replace(s, lift=s.lift + delay, land=s.land + delay) for s in later]
+    )
 
 
 def stand_on(plan: FootstepPlan, t: float, soles: dict[Foot, Array]) -> FootstepPlan:
