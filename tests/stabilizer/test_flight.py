@@ -1,4 +1,4 @@
-"""Flight: noticed when no sole has felt the ground for a while; no step begins until one does."""
+"""Flight: noticed when no sole has felt the ground for a while; the landing is caught."""
 
 from __future__ import annotations
 
@@ -7,22 +7,63 @@ import pinocchio as pin
 import pytest
 
 import preview_walk as pw
+from preview_walk.geometry.poses import compose, heading_of, midfeet, pose_at, relative
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
-from preview_walk.stabilizer.flight import FLIGHT_TIME, PAUSE, UNFELT, Flight, feel, waiting
+from preview_walk.stabilizer.flight import (
+    CATCH,
+    CLEAR,
+    FLIGHT_TIME,
+    PAUSE,
+    UNFELT,
+    Flight,
+    feel,
+    stand_on,
+    waiting,
+)
 
 PLAN = pw.FootstepPlanner(0.25, 0.17, 0.9).generate_footsteps(4)
 
 
 def test_a_flight_begins_after_a_while_and_ends_with_the_first_touch() -> None:
-    flight = feel(Flight(), 0.0, 0.0)  # the first sense of a run knows nothing yet
+    flight = feel(Flight(), 0.0, 0.0, 1.0, False)  # the first sense of a run knows nothing yet
     assert not flight.flies
-    flight = feel(flight, 1.0, 1.0)
-    assert not feel(flight, 1.0 + 0.99 * FLIGHT_TIME, 0.0).flies
-    flight = feel(flight, 1.0 + 1.01 * FLIGHT_TIME, 0.5 * UNFELT)
+    flight = feel(flight, 1.0, 1.0, 0.0, False)
+    assert not feel(flight, 1.0 + 0.99 * FLIGHT_TIME, 0.0, 1.0, False).flies
+    flight = feel(flight, 1.0 + 1.01 * FLIGHT_TIME, 0.5 * UNFELT, 2.0 * CLEAR, False)
     assert flight.flies
-    assert feel(flight, 2.0, 0.0).flies
-    assert feel(flight, 2.0, 2.0 * UNFELT) == Flight(2.0)
+    assert flight.airborne
+    assert feel(flight, 2.0, 0.0, 0.0, False).airborne
+    assert feel(flight, 2.0, 2.0 * UNFELT, 0.0, False) == Flight(2.0)
+
+
+def test_soles_on_the_ground_whose_sensors_are_dead_do_not_fly_off() -> None:
+    flight = feel(feel(Flight(), 0.0, 1.0, 0.0, False), 1.0, 0.0, 0.5 * CLEAR, False)
+    assert flight.flies
+    assert not flight.airborne
+
+
+def test_who_is_lifted_flies_at_once_whatever_the_soles_feel() -> None:
+    assert feel(Flight(0.0), 0.001, 0.2, 0.0, True).airborne
+
+
+@pytest.mark.parametrize("t", [0.5, PLAN.steps[1].lift + 0.2])
+def test_after_a_landing_the_steps_go_on_from_where_the_robot_has_come_down(t: float) -> None:
+    """In a stand and in mid swing: the sole in the air counts as down, the rest moves with it."""
+    soles = {"left": pose_at(1.0, 2.1, 0.7, 0.01), "right": pose_at(1.1, 1.9, 0.5, 0.01)}
+    plan = stand_on(PLAN, t, soles)
+    assert plan.start == t
+    assert [step.foot for step in plan.steps] == [s.foot for s in PLAN.steps if s.lift > t]
+    assert plan.steps[0].lift >= t + CATCH * PLAN.weight_shift - 1e-9
+    swing = PLAN.swing_at(t)
+    later = t if swing is None else swing.land
+    before = midfeet(PLAN.sole("left", later), PLAN.sole("right", later))
+    now = midfeet(soles["left"], soles["right"])
+    for step, old in zip(plan.steps, PLAN.steps[-len(plan.steps) :], strict=True):
+        assert step.land - step.lift == pytest.approx(old.land - old.lift)
+        place = compose(now, *relative(before, heading_of(old.pose)))
+        assert heading_of(step.pose) == pytest.approx(place)
+        assert step.pose[2, 3] == pytest.approx(old.pose[2, 3])
 
 
 def test_the_next_step_waits_and_all_others_with_it() -> None:
@@ -56,13 +97,29 @@ def lifted(robot: Robot, t: float, duration: float) -> tuple[pw.Walk, Record]:
     return walk, walk.record()
 
 
-def test_no_foot_lifts_in_flight(talos: Robot) -> None:
-    """Lifted for so long that two steps would be made in the air; how it lands is another thing."""
-    _, record = lifted(talos, 3.0, 0.8)
-    flying = (record.time > 3.3) & (record.time < 3.9) & (record.phase == -1)
-    assert flying.sum() > 100
-    lifts = np.diff(record.phase_ref[flying]) > 0
-    assert not lifts.any()
+def test_a_long_flight_is_landed_and_the_walk_goes_on(talos: Robot) -> None:
+    """Lifted for so long that two steps would be made in the air, and let down from 0.2 m."""
+    walk, record = lifted(talos, 3.0, 0.8)
+    flying = record.phase == -1
+    assert record.left_foot[flying, 2, 3].max() > 0.15
+    assert not record.phase_ref[flying & (record.time > 3.05)].any(), "no step in the air"
+    tilt = record.torso_tilt[record.time > 3.0]
+    assert not walk.fallen
+    assert tilt.max() < 0.3
+    assert record.phase[-1] == 0
+    assert {"left", "right"} == {step.foot for step in walk.plan.steps}
+
+
+def test_a_robot_that_stands_is_lifted_and_stands_again() -> None:
+    g1 = pw.load_robot("g1")
+    force = (0.0, 0.0, 1.2 * g1.mass * g1.gravity)
+    com = pin.centerOfMass(g1.pin, g1.pin.createData(), g1.posture)
+    point = tuple(pin.XYZQUATToSE3(g1.posture[:7]).actInv(com))
+    walk = pw.Walk.standing(g1, pushes=[pw.Push(0.2, 0.4, force, point=point)]).run(until=2.5)
+    record = walk.record()
+    assert record.left_foot[:, 2, 3].max() > 0.15
+    assert not walk.fallen
+    assert np.abs(record.com_velocity[-1]).max() < 0.02
 
 
 def test_after_a_short_flight_the_walk_goes_on_to_its_end(talos: Robot) -> None:
