@@ -29,7 +29,7 @@ from preview_walk.stabilizer.com_feedback import (
     com_feedback,
 )
 from preview_walk.stabilizer.disturbance import Disturbance, observe
-from preview_walk.stabilizer.flight import Flight, feel, stand_on, waiting
+from preview_walk.stabilizer.flight import UNFELT, Flight, feel, stand_on, waiting
 from preview_walk.stabilizer.lift import Lift, Rise, observe_lift
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
@@ -200,9 +200,12 @@ class Walker:
         self.lift = observe_lift(self.lift, now, self.robot.gravity)
         if self.lift.lifted:
             dynamics.add_lift(self.lift.share * self.weight, self.lift.moment)
-        ground = max(float(self.plan.sole(foot, t)[2, 3]) for foot in FEET)
-        lower = min(float(dynamics.soles[foot].position[2]) for foot in FEET)
-        self.flight = feel(self.flight, t, load, lower - ground, self.lift.lifted)
+        clearance = 0.0
+        if load <= UNFELT:  # else it does not matter
+            ground = max(float(self.plan.sole(foot, t)[2, 3]) for foot in FEET)
+            lower = min(float(dynamics.soles[foot].position[2]) for foot in FEET)
+            clearance = lower - ground
+        self.flight = feel(self.flight, t, load, clearance, self.lift.lifted)
 
     def _walk(self, t: float, state: CentroidalState, normal_force: Mapping[Foot, float]) -> None:
         """Follow the plan, or another one where recovery or the ground asks for it."""
