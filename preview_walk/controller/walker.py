@@ -12,6 +12,7 @@ from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
+from preview_walk.footsteps.laying import relay
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
@@ -32,6 +33,7 @@ from preview_walk.stabilizer.flight import Flight, feel, waiting
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
+from preview_walk.terrain.ground import Ground
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_forces
 from preview_walk.tracking.whole_body import WholeBodyController
@@ -49,7 +51,7 @@ class Walker:
     """Walks a robot along a live plan: call `tick` with the measured state, `follow` another plan.
 
     Attributes:
-        robot, gains: what it was made of.
+        robot, gains, ground: what it was made of.
         swing_height: of a swing's apex above the higher of its two soles, m.
         weight: of the robot, N.
         body: the whole-body controller; add tasks of one's own to it.
@@ -72,6 +74,7 @@ class Walker:
         solver: str = "osqp",
         swing_height: float | None = None,
         com_generator: str = "preview",
+        ground: Ground | None = None,
     ) -> None:
         """Stand on the plan's first soles.
 
@@ -84,11 +87,13 @@ class Walker:
             solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
             com_generator: "preview", "mpc" or "dcm".
+            ground: what all steps are laid on; None takes footholds as they are given.
 
         Raises:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
+        self.ground = ground
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
@@ -134,6 +139,12 @@ class Walker:
         """Walk by another plan from now on: the one place where plans are replaced."""
         self.pattern.follow(plan)
 
+    def laid(self, plan: FootstepPlan) -> FootstepPlan:
+        """Return a plan with its new steps on the ground, as far as that is known."""
+        if self.ground is None:
+            return plan
+        return relay(plan, self.plan, self.ground, gait_limits(self.robot))
+
     def change(self, plan: FootstepPlan, t: float) -> None:
         """Walk by a plan that somebody else made, if it fits to where the feet are.
 
@@ -145,6 +156,7 @@ class Walker:
             InvalidInput: it does not begin where the feet are, or is out of the legs' reach; the
                 old plan goes on.
         """
+        plan = self.laid(plan)
         soles = {foot: self.body.dynamics.soles[foot].pose for foot in FEET}
         refused = refusal(plan, self.plan, t, gait_limits(self.robot), soles)
         if refused is not None:
@@ -213,7 +225,7 @@ class Walker:
         decision = recover(situation, self._recovery, self._limits)
         self._recovery = decision.memory
         if decision.plan is not None:
-            self.follow(decision.plan)
+            self.follow(self.laid(decision.plan))
             self.pattern.rejoin(t, state.com[:2])
 
     def _free_swing(self, t: float) -> tuple[Array, Array] | None:
