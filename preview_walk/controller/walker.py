@@ -7,12 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from preview_walk.arguments import instance_of, number_within, real_array, shown
-from preview_walk.controller.feet import Feet
+from preview_walk.controller.feeling import conforming, felt_planes
+from preview_walk.controller.feet import Feet, FootState
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
-from preview_walk.footsteps.laying import relay
+from preview_walk.footsteps.laying import on_plane, relay
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
@@ -33,9 +34,9 @@ from preview_walk.stabilizer.flight import Flight, feel, waiting
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
-from preview_walk.terrain.ground import Ground
+from preview_walk.terrain.ground import Ground, Plane
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.measured import check_forces
+from preview_walk.tracking.measured import check_wrenches
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 
@@ -75,6 +76,7 @@ class Walker:
         swing_height: float | None = None,
         com_generator: str = "preview",
         ground: Ground | None = None,
+        blind: bool = False,
     ) -> None:
         """Stand on the plan's first soles.
 
@@ -88,12 +90,15 @@ class Walker:
             swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
             com_generator: "preview", "mpc" or "dcm".
             ground: what all steps are laid on; None takes footholds as they are given.
+            blind: whether the ground is what the soles feel, wherever the plan has them.
 
         Raises:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
         self.ground = ground
+        self.blind = blind
+        self.plane = Plane.through(plan[0].pos, plan[0].pose[:3, 2])
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
@@ -163,19 +168,20 @@ class Walker:
             raise refused
         self.follow(plan)
 
-    def tick(self, t: float, q: Array, v: Array, normal_force: Mapping[Foot, float]) -> Array:
+    def tick(self, t: float, q: Array, v: Array, wrench: Mapping[Foot, Array]) -> Array:
         """Return the joint torques (n,) in N·m for the state measured at time t.
 
         Args:
             t: now, s; must not go back.
             q: (nq,) configuration, Pinocchio's conventions.
             v: (nv,) velocity, Pinocchio's conventions.
-            normal_force: what each sole's force sensor reads, N.
+            wrench: [force; moment] (6,) on each sole about its centre, world axes, N, N·m.
 
         Raises:
             StateError: the state cannot be measured: not finite, or absurd.
         """
-        check_forces(normal_force)
+        check_wrenches(wrench)
+        normal_force = {foot: float(wrench[foot][2]) for foot in FEET}
         self.body.update(q, v)
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
@@ -184,7 +190,10 @@ class Walker:
             self._planned_until = t + PLANNING_DT - 1e-9
             self._recover(t, state)
         soles = {foot: dynamics.soles[foot].pose for foot in FEET}
+        before = self.feet.states.copy()
         early = self.feet.follow(t, self.plan, soles, normal_force)
+        if self.blind:
+            self._feel(t, before, soles)
         if early is not None:
             plan = early_landing(self.plan, t, early, soles[early], self._recovery)
             if plan is not None:
@@ -199,6 +208,8 @@ class Walker:
             self._rates,
         )
         self._set_tasks()
+        if self.blind:
+            self._conform(wrench)
         return self.body.torques(self.feet.normal_limits(t, self.plan))
 
     def _recover(self, t: float, state: CentroidalState) -> None:
@@ -228,6 +239,24 @@ class Walker:
             self.follow(self.laid(decision.plan))
             self.pattern.rejoin(t, state.com[:2])
 
+    def _feel(
+        self, t: float, before: Mapping[Foot, FootState], soles: Mapping[Foot, Array]
+    ) -> None:
+        """Walk on over the ground as it has just been felt, if a foot has touched it or lifted."""
+        for foot, plane in felt_planes(before, self.feet.states, soles, self.plane):
+            self.plane = plane
+            self.follow(on_plane(self.plan, foot, t, plane))
+
+    def _conform(self, wrench: Mapping[Foot, Array]) -> None:
+        """Turn soles that stand on an edge until they lie on the ground."""
+        for foot in self.feet.standing:
+            terms = self.body.dynamics.soles[foot]
+            twist = conforming(
+                wrench[foot], self.body.wrench(foot), terms.rotation, self.robot.sole
+            )
+            if twist is not None:
+                self.body.settle[foot] = self.body.settle.get(foot, 0.0) + twist
+
     def _free_swing(self, t: float) -> tuple[Array, Array] | None:
         """Return position and velocity (3,), world, of the sole that swings freely, or None."""
         step = self.plan.swing_at(t)
@@ -240,14 +269,15 @@ class Walker:
         """Hand feedback and targets to the tasks; the torso stays upright between the feet."""
         body, targets = self.body, self.feet.targets
         body.com.acceleration = self.feedback.acceleration
-        body.sink.clear()
+        body.settle.clear()
         turning = 0.0
         for foot, target in targets.items():
             task = body.foot_tasks[foot]
             task.pose, task.velocity = target.pose, target.velocity
             task.acceleration = target.acceleration
             if target.sink:
-                body.sink[foot] = target.sink
+                body.settle[foot] = np.zeros(6)
+                body.settle[foot][:3] = -target.sink * body.dynamics.soles[foot].rotation[2]
             if not target.contact:
                 turning += 0.5 * float(target.velocity[5])
         a, b = yaw_of(targets["left"].pose), yaw_of(targets["right"].pose)

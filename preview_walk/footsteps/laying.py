@@ -21,7 +21,7 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.poses import Heading, compose, heading_of, pose_at
 from preview_walk.geometry.support import Sole
-from preview_walk.terrain.ground import Ground
+from preview_walk.terrain.ground import Ground, Plane
 from preview_walk.types import Array, Foot, other
 
 UNEVEN = 0.003
@@ -105,6 +105,26 @@ def relay(
         steps.append(layer.laid(step, pose, stood[step.foot]))
         stood[step.foot] = pose
     return FootstepPlan([*plan[:first], *steps], plan.weight_shift)
+
+
+def on_plane(plan: FootstepPlan, foot: Foot, t: float, plane: Plane) -> FootstepPlan:
+    """Return the plan whose steps lie on a plane, from the one on which a foot stands or lands.
+
+    Args:
+        plan: the walk.
+        foot: whose last step that has lifted by time t is the first on the plane.
+        t: now, s.
+        plane: the ground as it is taken to be from there on.
+    """
+    first = max(k for k, step in enumerate(plan) if step.foot == foot and step.lift <= t)
+    steps: list[Footstep] = [*plan[:first]]
+    for step in plan[first:]:
+        x, y, yaw = heading_of(step.pose)
+        c, s = cos(yaw), sin(yaw)
+        rise = (plane.ahead * c + plane.left * s, plane.left * c - plane.ahead * s)
+        pose = _lying((x, y, yaw), np.array((float(plane.height(x, y)), *rise)))
+        steps.append(replace(step, pose=pose))
+    return FootstepPlan(steps, plan.weight_shift)
 
 
 def sole_on(place: Heading, ground: Ground, sole: Sole) -> Array | None:

@@ -74,7 +74,7 @@ def stand(plant: Plant, plan: FootstepPlan, blind: bool, **settings: Any) -> Wal
         plan = lay_on(plan, ground, gait_limits(robot))
     q = standing_configuration(robot, plan[0].pose, plan[1].pose)
     plant.place(q, plan.start)
-    return Walker(robot, plan, q, friction=plant.friction, ground=ground, **settings)
+    return Walker(robot, plan, q, friction=plant.friction, ground=ground, blind=blind, **settings)
 
 
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:

@@ -30,7 +30,6 @@ from preview_walk.simulation.standing import plant_of, stand, standing_plan
 from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.types import FEET
 
 CONTROL_HZ = 500
 """Default ticks of the controller per second."""
@@ -276,8 +275,7 @@ class Walk:
             plant.sense()
             before = perf_counter()
             try:
-                load = {foot: float(plant.wrench[foot][2]) for foot in FEET}
-                torques = walker.tick(t, plant.q, plant.v, load)
+                torques = walker.tick(t, plant.q, plant.v, plant.wrench)
             except PreviewWalkError as stop:
                 self._fall = (t, str(stop))
                 return
