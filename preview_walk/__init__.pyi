@@ -107,9 +107,15 @@ from .simulation.world import World as World
 from .simulation.scene import Scene as Scene
 
 # The ground.
+from .footsteps.clearing import clearing_shape as clearing_shape
+from .footsteps.swing_shape import SwingShape as SwingShape
 from .footsteps.laying import lay_on as lay_on
 from .terrain.ground import FlatGround as FlatGround
 from .terrain.ground import Ground as Ground
+from .terrain.ground import Plane as Plane
+from .terrain.height_field import HeightField as HeightField
+from .terrain.height_field import height_field as height_field
+from .terrain.height_field import rough as rough
 from .terrain.reading import read_ground as read_ground
 from .terrain.shapes import Piece as Piece
 from .terrain.shapes import blocks as blocks

@@ -20,7 +20,7 @@ from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import Command, VelocityCommands
-from preview_walk.simulation.fall import fall_reason
+from preview_walk.simulation.fall import fall_reason, over_edges
 from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.rates import require_rates, steps_per_tick
@@ -30,6 +30,7 @@ from preview_walk.simulation.standing import plant_of, stand, standing_plan
 from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
+from preview_walk.types import FEET
 
 CONTROL_HZ = 500
 """Default ticks of the controller per second."""
@@ -283,7 +284,8 @@ class Walk:
             self._recorder.write(t, torques, spent)
             reason = fall_reason(walker.body.dynamics, self.robot.com_height)
             if reason is not None:
-                self._fall = (t, reason)
+                soles = {foot: self.plan.sole(foot, t) for foot in FEET}
+                self._fall = (t, reason + over_edges(soles, self.robot.sole, plant.ground))
             if self._on_tick is not None:
                 self._on_tick(self)
             plant.step(torques, self._substeps)

@@ -20,6 +20,9 @@ from preview_walk.types import Array
 STEEPEST = 1.0
 """A slab tilted by more than this (rad) is a wall."""
 
+DEPTH = 1.0
+"""The floor lies this far (m) below the lowest ground."""
+
 SEAM = 1e-9
 """Slabs reach this far (m) further: where two meet, rounding must not open a crack to the floor."""
 
