@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from preview_walk.controller.feet import FootState
+from preview_walk.footsteps.swing_shape import SwingShape
 from preview_walk.geometry.support import Sole
 from preview_walk.terrain.ground import Plane
 from preview_walk.types import FEET, Array, Foot, other
@@ -15,8 +16,21 @@ CONFORM_RATE = 3.0
 """A sole that stands on its very edge, while the load should be in its middle, turns so fast
 (rad/s) towards the ground."""
 
+CONFORM_TIME = 0.3
+"""So long (s) after it has come to stand a sole turns; later it would rock."""
+
 AS_PLANNED = 0.4
 """A centre of pressure this near to where it should be (in half sizes) is there."""
+
+TRUST = 0.5
+"""Share of the tilt of one sole that is believed at once: on a block's edge it says little of the
+ground ahead, on a slope all soles say the same."""
+
+STEEPEST = 0.35
+"""Ground is never taken to rise by more (m per m)."""
+
+CAREFUL = SwingShape(before=0.1, after=0.25)
+"""The swing over ground that nobody sees: it comes down upright, whenever it touches."""
 
 LEAST_LOAD = 20.0
 """A sole that carries less (N) does not say where it is pressed."""
@@ -43,7 +57,11 @@ def felt_planes(
             yield foot, Plane.through(soles[foot][:3, 3], plane.normal(0.0, 0.0))
         elif before[foot].contact and not now[foot].contact:
             stands = soles[other(foot)]
-            yield other(foot), Plane.through(stands[:3, 3], stands[:3, 2])
+            felt = Plane.through(stands[:3, 3], stands[:3, 2])
+            ahead = plane.ahead + TRUST * (felt.ahead - plane.ahead)
+            left = plane.left + TRUST * (felt.left - plane.left)
+            normal = Plane(0.0, *np.clip((ahead, left), -STEEPEST, STEEPEST)).normal(0.0, 0.0)
+            yield other(foot), Plane.through(stands[:3, 3], normal)
 
 
 def conforming(wrench: Array, planned: Array, rotation: Array, sole: Sole) -> Array | None:

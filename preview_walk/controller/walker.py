@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from preview_walk.arguments import instance_of, number_within, real_array, shown
-from preview_walk.controller.feeling import conforming, felt_planes
+from preview_walk.controller.feeling import CAREFUL, CONFORM_TIME, conforming, felt_planes
 from preview_walk.controller.feet import Feet, FootState
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
-from preview_walk.footsteps.laying import on_plane, relay
+from preview_walk.footsteps.laying import on_plane, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
@@ -42,6 +42,9 @@ from preview_walk.types import FEET, Array, Foot
 
 SWING_HEIGHT = 0.06
 """Height of the swing foot's apex over the leg's length, where none is given."""
+
+BLIND_SWING_HEIGHT = 0.12
+"""The same where the ground is not known."""
 
 LEAN = 0.1
 """How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
@@ -108,7 +111,7 @@ class Walker:
         self.body.update(q, np.zeros(robot.pin.nv))
         leg = robot.leg_length
         self.swing_height = (
-            SWING_HEIGHT * leg
+            (BLIND_SWING_HEIGHT if blind else SWING_HEIGHT) * leg
             if swing_height is None
             else number_within(swing_height, "swing_height", 0.0, leg, "m, the leg's length")
         )
@@ -146,6 +149,8 @@ class Walker:
 
     def laid(self, plan: FootstepPlan) -> FootstepPlan:
         """Return a plan with its new steps on the ground, as far as that is known."""
+        if self.blind:
+            return swung(plan, self.plan, CAREFUL)
         if self.ground is None:
             return plan
         return relay(plan, self.plan, self.ground, gait_limits(self.robot))
@@ -209,7 +214,7 @@ class Walker:
         )
         self._set_tasks()
         if self.blind:
-            self._conform(wrench)
+            self._conform(t, wrench)
         return self.body.torques(self.feet.normal_limits(t, self.plan))
 
     def _recover(self, t: float, state: CentroidalState) -> None:
@@ -247,14 +252,15 @@ class Walker:
             self.plane = plane
             self.follow(on_plane(self.plan, foot, t, plane))
 
-    def _conform(self, wrench: Mapping[Foot, Array]) -> None:
+    def _conform(self, t: float, wrench: Mapping[Foot, Array]) -> None:
         """Turn soles that stand on an edge until they lie on the ground."""
         for foot in self.feet.standing:
             terms = self.body.dynamics.soles[foot]
             twist = conforming(
                 wrench[foot], self.body.wrench(foot), terms.rotation, self.robot.sole
             )
-            if twist is not None:
+            fresh = t - self.feet.states[foot].since < CONFORM_TIME
+            if twist is not None and fresh:
                 self.body.settle[foot] = self.body.settle.get(foot, 0.0) + twist
 
     def _free_swing(self, t: float) -> tuple[Array, Array] | None:

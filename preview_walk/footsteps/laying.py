@@ -19,6 +19,7 @@ from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
+from preview_walk.footsteps.swing_shape import PLAIN, SwingShape
 from preview_walk.geometry.poses import Heading, compose, heading_of, pose_at
 from preview_walk.geometry.support import Sole
 from preview_walk.terrain.ground import Ground, Plane
@@ -125,6 +126,16 @@ def on_plane(plan: FootstepPlan, foot: Foot, t: float, plane: Plane) -> Footstep
         pose = _lying((x, y, yaw), np.array((float(plane.height(x, y)), *rise)))
         steps.append(replace(step, pose=pose))
     return FootstepPlan(steps, plan.weight_shift)
+
+
+def swung(plan: FootstepPlan, current: FootstepPlan, shape: SwingShape) -> FootstepPlan:
+    """Return the plan whose plain swings that the current plan does not have are of this shape."""
+    known = {id(step) for step in current}
+    first = next((k for k, s in enumerate(plan) if k > 1 and id(s) not in known), len(plan))
+    if first == len(plan):
+        return plan
+    later = [replace(s, swing=shape) if s.swing == PLAIN else s for s in plan[first:]]
+    return FootstepPlan([*plan[:first], *later], plan.weight_shift)
 
 
 def sole_on(place: Heading, ground: Ground, sole: Sole) -> Array | None:

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from preview_walk.arguments import shown
+from preview_walk.controller.feeling import CAREFUL
 from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput
-from preview_walk.footsteps.laying import lay_on
+from preview_walk.footsteps.laying import lay_on, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.geometry.poses import as_heading, pose_at
@@ -72,6 +73,8 @@ def stand(plant: Plant, plan: FootstepPlan, blind: bool, **settings: Any) -> Wal
     if not blind and not isinstance(plant.ground, FlatGround):
         ground = plant.ground
         plan = lay_on(plan, ground, gait_limits(robot))
+    if blind:
+        plan = swung(plan, FootstepPlan(plan[:2]), CAREFUL)
     q = standing_configuration(robot, plan[0].pose, plan[1].pose)
     plant.place(q, plan.start)
     return Walker(robot, plan, q, friction=plant.friction, ground=ground, blind=blind, **settings)
