@@ -17,6 +17,7 @@ from .preview.systems import closed_loop_system as closed_loop_system
 from .preview.systems import preview_filter as preview_filter
 from .preview.systems import servo_system as servo_system
 from .preview.mpc import PredictiveServo as PredictiveServo
+from .preview.least_input import LeastInputServo as LeastInputServo
 from .preview.compare import Comparison as Comparison
 from .preview.compare import compare as compare
 from .preview.comparison_plot import plot_comparison as plot_comparison

@@ -14,12 +14,15 @@ from preview_walk.preview.cart_table import cart_table
 from preview_walk.preview.compare import compare
 from preview_walk.preview.controller import PreviewController
 from preview_walk.preview.gains import preview_gains
+from preview_walk.preview.half_planes import half_planes
+from preview_walk.preview.least_input import LeastInputServo
 from preview_walk.preview.limits import Limits
+from preview_walk.preview.mpc import PredictiveServo
 from preview_walk.preview.observer import kalman_gain, luenberger_gain
 from preview_walk.preview.response import preview_effect, track
 from preview_walk.preview.servo import PreviewServo
 from preview_walk.preview.systems import closed_loop_system, preview_filter, servo_system
-from preview_walk.preview.zmp_mpc import half_planes, zmp_mpc
+from preview_walk.preview.zmp_mpc import zmp_mpc
 
 K = cart_table(0.814, 0.005)
 GIVEN: dict[str, Any] = {"system": K, "Q_e": 1.0, "Q_x": 0.0, "R": 1e-6, "N": 50}
@@ -30,6 +33,7 @@ SMALL = preview_gains(
 )
 SERVO = PreviewServo(SMALL, observer_gain=kalman_gain(SMALL, 0.1, 0.1))
 START, WINDOW = SERVO.start(), np.zeros((31, 1))
+TWO = preview_gains((0.9 * np.eye(2), np.eye(2), np.eye(2), np.zeros((2, 2))), 1, 0, 0.1, 30)
 SOLE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
 
 BAD: list[Any] = [
@@ -75,6 +79,12 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "limits": lambda b: compare(SMALL, [0.0, 1.0], limits=b),
     "y_max": lambda b: compare(SMALL, [0.0, 1.0], limits=Limits(y_max=b), laws=("MPC",)),
     "u_min": lambda b: compare(SMALL, [0.0, 1.0], limits=Limits(u_min=b), laws=("MPC",)),
+    "u_max of Wieber's": lambda b: LeastInputServo(SMALL, Limits(u_max=b)),
+    "servo limits": lambda b: PredictiveServo(SMALL, b),
+    "y_limits": lambda b: PredictiveServo(SMALL, Limits()).step(START, WINDOW, y_limits=b),
+    "polygons": lambda b: compare(TWO, np.zeros((2, 2)), limits=Limits(polygons=b)),
+    "a polygon": lambda b: compare(TWO, np.zeros((2, 2)), limits=Limits(polygons=[SOLE, b])),
+    "one output's": lambda b: compare(SMALL, [0.0, 1.0], limits=Limits(polygons=b)),
     "polygon": half_planes,
     "supports": lambda b: zmp_mpc(b, 0.8, 0.1),
     "height": lambda b: zmp_mpc([SOLE], b, 0.1),
