@@ -4,6 +4,7 @@ __version__: str
 
 # Preview control, for any linear plant.
 from .preview.gains import preview_gains as preview_gains
+from .preview.increments import with_increments as with_increments
 from .preview.design import PreviewDesign as PreviewDesign
 from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
 from .preview.response import Tracking as Tracking
