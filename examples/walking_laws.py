@@ -32,7 +32,7 @@ def main() -> None:
     parser.add_argument("--out", default="walking_laws.png", help="the picture to write")
     out = parser.parse_args().out
 
-    sole = pw.Sole(half_length=0.08, half_width=0.03)  # 2 cm within those of TALOS
+    sole = pw.Sole(half_length=0.085, half_width=0.045)  # m, 2 cm within those of TALOS
     stride = {"step_length": 0.3, "step_width": 0.2, "step_time": 0.6}
     plan = pw.FootstepPlanner(**stride, double_support_ratio=0.05).generate_footsteps(6)
     times = np.arange(plan.start, plan.end + 1.0, DT)
