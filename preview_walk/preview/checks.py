@@ -74,17 +74,20 @@ def sequence(name: str, value: object, columns: int) -> Array:
     return rows
 
 
-def require_positive(name: str, value: float, unit: str) -> None:
-    """Refuse what is not a positive, finite number."""
+def positive(name: str, value: object, unit: str) -> float:
+    """Return a positive, finite number as a float, of whatever type it came."""
     try:
-        valid = math.isfinite(value) and value > 0.0
+        if isinstance(value, str | bytes | bool | np.bool_):
+            raise TypeError
+        number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
-        valid = False
-    if not valid:
+        number = math.nan
+    if not 0.0 < number < math.inf:
         raise InvalidInput(
             f"expected {name} to be a positive number of {unit}, got {shown(value)}.",
             argument=name,
         )
+    return number
 
 
 def require_type(name: str, value: object, kind: type) -> None:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
-from preview_walk.preview.checks import require_type
+from preview_walk.preview.checks import require_type, shown
 from preview_walk.preview.compare import Comparison
 from preview_walk.preview.limits import input_limits
 from preview_walk.types import Array
@@ -101,7 +101,7 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
         target = Path(path)
     except TypeError:
         raise InvalidInput(
-            f"expected path to be a file name, got {path!r}.", argument="path"
+            f"expected path to be a file name, got {shown(path)}.", argument="path"
         ) from None
     suffix, formats = target.suffix.lstrip(".").lower(), figure.canvas.get_supported_filetypes()
     if suffix not in formats:

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.horizon import check_horizon, samples, slow_mode, warn_if_short
 from preview_walk.preview.plant import Linear, Plant, read_plant
@@ -100,6 +101,10 @@ def preview_gains(
     )
     horizon = check_horizon(N)
     require_stabilisable(plant)
+    if not isinstance(integral, bool | np.bool_):
+        raise InvalidInput(
+            f"expected integral to be True or False, got {shown(integral)}.", argument="integral"
+        )
     if final_cost is not None:
         if not integral:
             raise InvalidInput(

@@ -210,12 +210,15 @@ def preview_effect(
     r = sequence("reference", reference, len(design.plant.C))
     x0, u0 = rest(design, r[0])
     try:
-        lengths = list(horizons)
+        # A list would take whatever has an index, transfer functions too.
+        lengths = list(horizons) if isinstance(horizons, Iterable) else None
     except TypeError:
+        lengths = None
+    if lengths is None:
         raise InvalidInput(
             f"expected horizons to be several numbers of samples, got {shown(horizons)}.",
             argument="horizons",
-        ) from None
+        )
     errors = []
     for horizon in lengths:
         shorter = shortened(design, horizon)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComTrajectory, cart_table
-from preview_walk.preview.checks import finite_vector, require_positive
+from preview_walk.preview.checks import finite_vector, positive
 from preview_walk.preview.half_planes import of_polygons
 from preview_walk.preview.least_distance import least_distance
 from preview_walk.preview.least_input import conditions, outputs_ahead
@@ -50,9 +50,8 @@ def zmp_mpc(
             the polygons.
 
     """
-    require_positive("dt", dt, "s")
-    require_positive("preview_time", preview_time, "s")
-    horizon = _horizon(preview_time, dt)
+    dt = positive("dt", dt, "s")
+    horizon = _horizon(positive("preview_time", preview_time, "s"), dt)
     planes = of_polygons("supports", supports)
     plant = cart_table(z_c, dt)
     a, b, c, d = (np.kron(np.eye(2), part) for part in (plant.A, plant.B, plant.C, plant.D))

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
+import control
 import numpy as np
 import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import cart_table
 from preview_walk.preview.compare import compare
+from preview_walk.preview.comparison_plot import plot_comparison
 from preview_walk.preview.controller import PreviewController
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.half_planes import half_planes
+from preview_walk.preview.increments import with_increments
 from preview_walk.preview.least_input import LeastInputServo
 from preview_walk.preview.limits import Limits
 from preview_walk.preview.mpc import PredictiveServo
@@ -36,15 +41,25 @@ START, WINDOW = SERVO.start(), np.zeros((31, 1))
 TWO = preview_gains((0.9 * np.eye(2), np.eye(2), np.eye(2), np.zeros((2, 2))), 1, 0, 0.1, 30)
 SOLE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
 
+LAWS = compare(SMALL, [0.0, 1.0], laws=("LQI",))
+
 BAD: list[Any] = [
     None, "x", True, np.nan, np.inf, -np.inf, -1, 0, 1e308, 1e-308, 1e30, 10**400, 1j, [], [[]], {},
     object(), [1, 2], [[1, "a"]], np.ones((2, 2, 2)), np.zeros((0, 0)), 1e-9, 1e9, [[1], [1, 2]],
     np.array("2020", dtype="datetime64"), int, np.ma.masked, np.full((3, 3), 1e200),
+    Decimal("0.1"), Fraction(1, 3), np.True_, b"1", np.zeros((3, 0)), control.tf([1, 0], [1]), K,
+    control.tf([[[1], [1, 2]], [[1], [1]]], [[[1, 2], [1, 2]], [[1, 3], [1, 4]]], 0.1),
 ]  # fmt: skip
 
 CALLS: dict[str, Callable[[Any], object]] = {
     **{name: (lambda b, n=name: preview_gains(**{**GIVEN, n: b}))  # type: ignore[misc]
-       for name in (*GIVEN, "E", "dt", "final_cost")},
+       for name in (*GIVEN, "E", "dt", "final_cost", "integral")},
+    **{f"{name} without integral action":
+       (lambda b, n=name: preview_gains(**{**GIVEN, n: b, "integral": False}))  # type: ignore[misc]
+       for name in (*GIVEN, "E")},
+    "increments": with_increments,
+    "increments' dt": lambda b: with_increments(cart_table(0.8), b),
+    "increments' E": lambda b: with_increments(K, E=b),
     "A": lambda b: preview_gains((b, K.B, K.C, K.D), 1.0, 0.0, 1e-6, 50),
     "D": lambda b: preview_gains((K.A, K.B, K.C, b), 1.0, 0.0, 1e-6, 50),
     "time base": lambda b: preview_gains((K.A, K.B, K.C, K.D, b), 1.0, 0.0, 1e-6, 50),
@@ -59,6 +74,7 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "tau": lambda b: WALK.interpolate(STILL, STILL, b),
     "velocity": lambda b: WALK.initial_state((0.0, 0.0), b),
     "cart_table": cart_table,
+    "gravity": lambda b: cart_table(0.8, 0.01, b),
     "design": lambda b: track(b, [0.0]),
     "reference": lambda b: track(SMALL, b),
     "disturbance": lambda b: track(SMALL, [0.0, 1.0], disturbance=b),
@@ -89,6 +105,8 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "supports": lambda b: zmp_mpc(b, 0.8, 0.1),
     "height": lambda b: zmp_mpc([SOLE], b, 0.1),
     "zmp dt": lambda b: zmp_mpc([SOLE], 0.8, b),
+    "zmp preview": lambda b: zmp_mpc([SOLE], 0.8, 0.1, b),
+    "path": lambda b: plot_comparison(LAWS, b),
 }  # fmt: skip
 
 
