@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.preview.checks import computable
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.half_planes import HalfPlanes, of_box
 from preview_walk.preview.least_distance import least_distance
@@ -93,7 +94,8 @@ class LeastInputServo(LimitedServo):
         ahead = outputs_ahead(plant.A, np.hstack([plant.B, plant.E]), plant.C, through, horizon)
         self._first = 0 if np.any(plant.D) else 1
         # In u~ = L' u, R = L L', the least input is the least distance.
-        self._root = np.linalg.inv(np.linalg.cholesky(design.R)).T
+        with computable("design"):
+            self._root = np.linalg.inv(np.linalg.cholesky(design.R)).T
         self._free = ahead.free
         self._known = ahead.forced[..., m:].reshape(horizon, len(plant.C), -1)
         self._forced = ahead.forced[..., :m] @ self._root

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.preview.checks import computable
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.half_planes import HalfPlanes, beside, of_box
 from preview_walk.preview.least_norm import ROUNDS, TOLERANCE, least_norm
@@ -77,7 +78,8 @@ class PredictiveServo(LimitedServo):
         sides = (np.tile(side, (design.horizon + 1, 1)) for side in (self.u_min, self.u_max))
         self._input_limits = of_box(*sides)
         # In c~ = L' c the Hessian of the programme is the identity.
-        self._root = np.linalg.inv(np.linalg.cholesky(inner)).T
+        with computable("design"):
+            self._root = np.linalg.inv(np.linalg.cholesky(inner)).T
         impulse = np.zeros((m, design.horizon + 1, m))
         impulse[:, 0] = self._root.T
         zero = np.zeros((m, design.horizon + 1, n))

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
+from preview_walk.preview.checks import computable, finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.recursion import Recursion
 from preview_walk.types import Array
@@ -251,7 +251,8 @@ def rest(design: PreviewDesign, output: Array) -> tuple[Array, Array]:
     a, b, c, d = design.plant.A, design.plant.B, design.plant.C, design.plant.D
     n = len(a)
     equations = np.block([[a - np.eye(n), b], [c, d]])
-    found = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
+    with computable("design"):
+        found = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
     return found[:n], found[n:]
 
 

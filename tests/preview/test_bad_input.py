@@ -163,6 +163,34 @@ def test_random_plants_and_ill_conditioned_weights() -> None:
     assert designed > 150
 
 
+def test_plants_and_weights_near_the_ends_of_what_numbers_hold() -> None:
+    """Products overflow, vanish or are singular: what linear algebra says becomes a sentence."""
+    rng, designed, unsolved = np.random.default_rng(4), 0, 0
+
+    def size() -> float:
+        return 10.0 ** float(rng.choice([0, 0, 0, 0, -20, 20, 100, 150, -300, 300]))
+
+    for trial in range(400):
+        n, m, p = rng.integers(1, 4), rng.integers(1, 4), rng.integers(1, 4)
+        a, b, c = rng.normal(size=(n, n)), rng.normal(size=(n, m)), rng.normal(size=(p, n))
+        d = rng.normal(size=(p, m)) * rng.integers(0, 2)
+        final = {"final_cost": size()} if trial % 5 == 0 else {"integral": bool(trial % 2)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                plant = (a * size(), b * size(), c * size(), d * size())
+                design = preview_gains(plant, size(), size() * (trial % 3), size(), 3, **final)
+                LeastInputServo(design, Limits())
+                PredictiveServo(design, Limits())
+                preview_effect(design, np.ones((3, p)), [0, 3])
+            except InvalidInput as error:
+                unsolved += isinstance(error.__cause__, np.linalg.LinAlgError)
+                continue
+        designed += 1
+    assert designed > 20, (designed, unsolved)
+    assert unsolved > 3
+
+
 @pytest.mark.parametrize(("q_e", "r"), [(7e6, 4e-12), (3e8, 6e-11)])
 def test_inputs_that_only_tiny_weights_tell_apart(q_e: float, r: float) -> None:
     with pytest.raises(InvalidInput) as caught:
