@@ -146,8 +146,8 @@ def draw(own: dict[str, Table], path: str) -> None:
                 values = [cells[share][k][2] for share in shares]
                 axis.plot(shares, values, style, marker="o", ms=3, label=label)
             axis.set_title(f"{name}, {direction}", fontsize=10)
-            axis.set_ylim(bottom=0.0)
             axis.grid(True, color="0.92")
+        line[0].set_ylim(bottom=0.0)
         line[0].set_ylabel("impulse [N·s]")
     figure.supxlabel("share of single support", fontsize=10)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2,
