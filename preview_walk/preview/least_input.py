@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.errors import InvalidInput
 from preview_walk.preview.checks import computable
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.half_planes import HalfPlanes, of_box
@@ -24,6 +25,10 @@ from preview_walk.preview.limited import LimitedServo
 from preview_walk.preview.limits import Limits
 from preview_walk.preview.servo import ServoState
 from preview_walk.types import Array
+
+
+MAX_HORIZON = 1000
+"""Longest horizon in samples: its matrices have the square of it as entries."""
 
 
 class Ahead(NamedTuple):
@@ -88,6 +93,11 @@ class LeastInputServo(LimitedServo):
 
         """
         super().__init__(design, limits, observer_gain=observer_gain)
+        if design.horizon > MAX_HORIZON:
+            raise InvalidInput(
+                f"expected a design of at most {MAX_HORIZON} samples, got {design.horizon}.",
+                argument="design",
+            )
         plant, horizon = design.plant, design.horizon
         m = plant.B.shape[1]
         through = np.hstack([plant.D, np.zeros((len(plant.C), plant.E.shape[1]))])

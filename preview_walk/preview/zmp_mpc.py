@@ -21,7 +21,7 @@ from preview_walk.preview.cart_table import ComTrajectory, cart_table
 from preview_walk.preview.checks import finite_vector, positive
 from preview_walk.preview.half_planes import of_polygons
 from preview_walk.preview.least_distance import least_distance
-from preview_walk.preview.least_input import conditions, outputs_ahead
+from preview_walk.preview.least_input import MAX_HORIZON, conditions, outputs_ahead
 
 
 def zmp_mpc(
@@ -76,10 +76,9 @@ def zmp_mpc(
 
 
 def _horizon(preview_time: float, dt: float) -> int:
-    most = 1000
-    if not preview_time / dt <= most:
+    if not preview_time / dt <= MAX_HORIZON:
         raise InvalidInput(
-            f"expected preview_time to be at most {most} samples of dt = {dt:g} s, got "
+            f"expected preview_time to be at most {MAX_HORIZON} samples of dt = {dt:g} s, got "
             f"{preview_time:g} s.",
             argument="preview_time",
         )

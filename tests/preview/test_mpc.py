@@ -164,6 +164,7 @@ def test_half_planes_of_a_square_either_way_round() -> None:
         assert not (normals @ [1.1, 0.0] < offsets).all()
 
 
+LONG = preview_gains(([[0.9]], [[1.0]], [[1.0]], [[0.0]]), 1.0, 0.0, 0.1, 100_000)
 STILL = PredictiveServo(design(), Limits()).start(), np.zeros((21, 2))
 
 
@@ -177,6 +178,7 @@ def test_refusals() -> None:
         (lambda: PredictiveServo(design(), Limits(y_max=-np.inf)).step(*STILL), "y_max"),
         (lambda: PredictiveServo(design(), Limits(polygons=bow)).step(*STILL), "polygons"),
         (lambda: LeastInputServo(design(), Limits(polygons=[bow])).step(*STILL), "polygons"),
+        (lambda: LeastInputServo(LONG, Limits()), "design"),
         (lambda: zmp_mpc(3, 0.8, 0.1), "supports"),  # type: ignore[arg-type]
         (lambda: zmp_mpc([box(0.0, 0.0)], -1.0, 0.1), "z_c"),
         (lambda: zmp_mpc([box(0.0, 0.0)], 0.8, 0.1, 1e9), "preview_time"),
