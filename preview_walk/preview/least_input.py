@@ -26,7 +26,6 @@ from preview_walk.preview.limits import Limits
 from preview_walk.preview.servo import ServoState
 from preview_walk.types import Array
 
-
 MAX_HORIZON = 1000
 """Longest horizon in samples: its matrices have the square of it as entries."""
 
