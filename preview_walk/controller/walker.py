@@ -29,7 +29,12 @@ from preview_walk.stabilizer.com_feedback import (
     Support,
     com_feedback,
 )
-from preview_walk.stabilizer.disturbance import Disturbance, observe
+from preview_walk.stabilizer.disturbance import (
+    ROUGH_SMOOTHING_TIME,
+    SMOOTHING_TIME,
+    Disturbance,
+    observe,
+)
 from preview_walk.stabilizer.flight import Flight, feel, waiting
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
@@ -224,7 +229,8 @@ class Walker:
         """
         omega = self.pattern.omega
         dcm = state.dcm(omega)
-        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
+        lag = ROUGH_SMOOTHING_TIME if self.blind else SMOOTHING_TIME
+        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega, lag)
         situation = Situation(
             t,
             self.plan,
