@@ -35,6 +35,10 @@ OPTION_OF = {
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 
+WHOLE = ("--push",)
+"""Options whose value holds arguments that have the names of other options' ones: an error under
+them is theirs (the duration of a push is not `--duration`)."""
+
 _RADIANS = re.compile(
     r"(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?) rad\b(/s)?(?: \(-?[\d.]+ degrees(?:/s)?\))?"
 )
@@ -56,7 +60,7 @@ def naming(option: str) -> Iterator[None]:
         raise
     except PreviewWalkError as error:
         argument = error.argument if isinstance(error, InvalidInput) else None
-        name = OPTION_OF.get(argument or "", option)
+        name = option if option in WHOLE else OPTION_OF.get(argument or "", option)
         sentence = in_degrees(str(error)).rstrip(".")
         raise InvalidInput(f"{name}: {sentence}.", argument=argument) from error
 

@@ -68,3 +68,10 @@ def test_angles_are_told_in_degrees(sentence: str, expected: str) -> None:
 def test_a_file_that_cannot_be_written_keeps_its_own_sentence() -> None:
     with pytest.raises(OutputError, match=r"^cannot write"), naming("--video"):
         raise OutputError("cannot write it.")
+
+
+@pytest.mark.parametrize("argument", ["t", "duration", "force", "start", None])
+def test_what_is_wrong_of_a_push_is_told_of_push(argument: str | None) -> None:
+    """The duration of a push is not `--duration`, which may not have been given at all."""
+    with pytest.raises(InvalidInput, match=r"^--push: it cannot be\.$"), naming("--push"):
+        raise InvalidInput("it cannot be.", argument)
