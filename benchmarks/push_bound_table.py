@@ -8,7 +8,7 @@ same pendulum in the limits of `preview_walk.stabilizer.step_limits`: what ours 
 it survives by what the pendulum leaves out, the angular momentum of trunk and arms.
 
     python benchmarks/push_bound_table.py
-    python benchmarks/push_bound_table.py --own
+    python benchmarks/push_bound_table.py --own --out docs/push_bounds.png
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ import argparse
 import time
 from dataclasses import replace
 from typing import get_args
+
+from matplotlib.figure import Figure
 
 from preview_walk import Answer, Direction, PushGait, Sole, largest_impulse
 
@@ -126,11 +128,41 @@ def row(gait: PushGait, share: float | None) -> list[tuple[float, ...]]:
     ]
 
 
+Table = dict[float | None, list[Cell]]
+"""A cell for each direction in order, for each share of single support."""
+
+
+def draw(own: dict[str, Table], path: str) -> None:
+    """Draw the bound with free footholds and times in the reference's limits and in our own."""
+    figure = Figure(figsize=(11.0, 5.5), layout="constrained")
+    axes = figure.subplots(len(own), 4, sharex=True, sharey="row", squeeze=False)
+    for line, (name, table) in zip(axes, own.items(), strict=True):
+        shares = [share for share in table if share is not None]
+        for k, (axis, direction) in enumerate(zip(line, get_args(Direction), strict=True)):
+            for cells, style, label in (
+                (REFERENCE[name], "k--", "the reference's limits"),
+                (table, "C0-", "the controller's own limits"),
+            ):
+                values = [cells[share][k][2] for share in shares]
+                axis.plot(shares, values, style, marker="o", ms=3, label=label)
+            axis.set_title(f"{name}, {direction}", fontsize=10)
+            axis.grid(True, color="0.92")
+        line[0].set_ylim(bottom=0.0)
+        line[0].set_ylabel("impulse [N·s]")
+    figure.supxlabel("share of single support", fontsize=10)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2,
+                  frameon=False)  # fmt: skip
+    figure.savefig(path, dpi=100)
+
+
 def main() -> None:
     """Print the tables, ours over the reference, and the largest deviation of each column."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--own", action="store_true", help="bounds in the controller's own limits")
-    own = parser.parse_args().own
+    parser.add_argument("--out", help="a picture of the bounds in both limits; with --own")
+    given = parser.parse_args()
+    own = given.own
+    found: dict[str, Table] = {}
     worst = dict.fromkeys(get_args(Answer), 0.0)
     begin = time.perf_counter()
     for name, table in REFERENCE.items():
@@ -139,6 +171,7 @@ def main() -> None:
         print(f"  {'':<12}" + "".join(f"{direction:<26}" for direction in get_args(Direction)))
         for share, cells in table.items():
             ours = row(gait, share)
+            found.setdefault(name, {})[share] = ours
             for mine, theirs in zip(ours, cells, strict=True):
                 for answer, a, b in zip(worst, mine, theirs, strict=True):
                     worst[answer] = max(worst[answer], abs(a / b - 1.0))
@@ -147,6 +180,8 @@ def main() -> None:
                 words = (" / ".join(f"{value:.1f}" for value in cell) for cell in values)
                 print(f"  {head:<12}" + "".join(f"{text:<26}" for text in words), flush=True)
     seconds = time.perf_counter() - begin
+    if own and given.out:
+        draw(found, given.out)
     print(f"largest difference from the reference, {seconds:.0f} s:")
     for answer, deviation in worst.items():
         print(f"  {answer:<18}{100 * deviation:.2f} %")

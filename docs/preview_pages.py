@@ -1,4 +1,4 @@
-"""The four pages of `docs/preview/`: runs their examples, writes code, output and pictures there.
+"""The pages of `docs/preview/`: runs their examples, writes code, output and pictures there.
 
 python docs/preview_pages.py
 
@@ -38,6 +38,7 @@ class Page:
 
 PAGES = (
     Page("cart-table", "preview_horizon"),
+    Page("walking-laws", "walking_laws"),
     Page("active-suspension", "active_suspension"),
     Page("servo", "servo", "rad"),
     Page("crane", "crane", "m"),

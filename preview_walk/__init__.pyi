@@ -4,6 +4,7 @@ __version__: str
 
 # Preview control, for any linear plant.
 from .preview.gains import preview_gains as preview_gains
+from .preview.increments import with_increments as with_increments
 from .preview.design import PreviewDesign as PreviewDesign
 from .preview.horizon import ShortHorizonWarning as ShortHorizonWarning
 from .preview.response import Tracking as Tracking
@@ -17,6 +18,7 @@ from .preview.systems import closed_loop_system as closed_loop_system
 from .preview.systems import preview_filter as preview_filter
 from .preview.systems import servo_system as servo_system
 from .preview.mpc import PredictiveServo as PredictiveServo
+from .preview.least_input import LeastInputServo as LeastInputServo
 from .preview.compare import Comparison as Comparison
 from .preview.compare import compare as compare
 from .preview.comparison_plot import plot_comparison as plot_comparison
@@ -107,9 +109,15 @@ from .simulation.world import World as World
 from .simulation.scene import Scene as Scene
 
 # The ground.
+from .footsteps.clearing import clearing_shape as clearing_shape
+from .footsteps.swing_shape import SwingShape as SwingShape
 from .footsteps.laying import lay_on as lay_on
 from .terrain.ground import FlatGround as FlatGround
 from .terrain.ground import Ground as Ground
+from .terrain.ground import Plane as Plane
+from .terrain.height_field import HeightField as HeightField
+from .terrain.height_field import height_field as height_field
+from .terrain.height_field import rough as rough
 from .terrain.reading import read_ground as read_ground
 from .terrain.shapes import Piece as Piece
 from .terrain.shapes import blocks as blocks

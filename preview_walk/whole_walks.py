@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, TypedDict
 
 from preview_walk.arguments import function_of
 from preview_walk.controller.robot_limits import gait_limits
-from preview_walk.footsteps.laying import lay_on
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
 from preview_walk.record.record import Record
@@ -36,6 +35,7 @@ class Settings(TypedDict, total=False):
     com_height: float | None
     com_generator: str
     ground: Ground | None
+    blind: bool
     on_tick: Callable[[Walk], None] | None
 
 
@@ -64,11 +64,11 @@ def simulate(
     """
     function_of(progress, "progress")
     plan = as_plan(plan)
-    ground = settings.get("ground")
-    if ground is not None:
-        plan = lay_on(plan, ground, robot.sole)
-    require_walkable(plan, gait_limits(robot))
-    return _recorded(Walk(robot, plan, visuals=viewer, **settings), progress, viewer)
+    if settings.get("ground") is None or settings.get("blind"):
+        require_walkable(plan, gait_limits(robot))
+    walk = Walk(robot, plan, visuals=viewer, **settings)
+    require_walkable(walk.plan, gait_limits(robot))
+    return _recorded(walk, progress, viewer)
 
 
 def simulate_commands(

@@ -40,7 +40,7 @@ def numbers_and_words(output: str) -> tuple[list[float], list[str]]:
         cells = line.split()
         if "us/sample" in cells:
             timed = len(cells) - cells.index("us/sample")
-        elif cells[0] not in ("LQR", "LQI", "preview", "MPC"):
+        elif cells[0] not in ("LQR", "LQI", "preview", "MPC", "Wieber"):
             timed = -1
         for i, cell in enumerate(cells):
             if len(cells) - i == timed:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-ELSEWHERE = ("video", "preview_horizon", "active_suspension", "servo", "crane")
+ELSEWHERE = ("video", "preview_horizon", "walking_laws", "active_suspension", "servo", "crane")
 """A film renders for minutes without a graphics card; `test_video.py` tests what it does. The
 others' output is compared with their pages by `test_documents.py`."""
 

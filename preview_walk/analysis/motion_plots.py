@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from preview_walk.analysis.frame import from_start, start_frame
@@ -19,6 +20,10 @@ from preview_walk.analysis.style import (
 )
 from preview_walk.geometry.planar import turn
 from preview_walk.record.record import Record
+from preview_walk.terrain.ground import FlatGround
+
+SHOWN = 0.1
+"""Ground deeper than this (m) below the lowest sole is not drawn."""
 
 
 def draw_axis(ax: Axes, record: Record, axis: int) -> None:
@@ -61,7 +66,10 @@ def draw_errors(ax: Axes, record: Record) -> None:
 
 
 def draw_feet(ax: Axes, record: Record) -> None:
-    """Draw the height of the sole centres over time, mm above the first planned soles."""
+    """Draw the height of the sole centres over time, mm above the first planned soles.
+
+    Thin lines are the ground under them where it is not level.
+    """
     patches = shade_phases(ax, record)
     ground = 0.5 * (record.left_foot_ref[0, 2, 3] + record.right_foot_ref[0, 2, 3])
     for foot, measured, planned in (
@@ -71,6 +79,11 @@ def draw_feet(ax: Axes, record: Record) -> None:
         colour = COM if foot == "left" else ZMP  # stronger than the shading of the same foot
         height, planned_height = (1e3 * (pose[:, 2, 3] - ground) for pose in (measured, planned))
         draw_pair(ax, record.time, height, planned_height, colour, foot)
+        if not isinstance(record.ground, FlatGround):
+            under = record.ground.height(measured[:, 0, 3], measured[:, 1, 3]) - ground
+            # Where the foot passes over a pit the picture would show nothing but its depth.
+            shown = np.where(under > height.min() * 1e-3 - SHOWN, 1e3 * under, np.nan)
+            ax.plot(record.time, shown, color=colour, linewidth=0.6, alpha=0.6)
     mark_fall(ax, record)
     finish(ax, "Height of the sole centres", "height [mm]")
     legend(ax, planned_key(), *patches)

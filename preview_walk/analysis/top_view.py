@@ -20,7 +20,11 @@ from preview_walk.analysis.style import (
 )
 from preview_walk.geometry.support import Sole
 from preview_walk.record.record import Record
+from preview_walk.terrain.ground import FlatGround
 from preview_walk.types import FEET, Array
+
+BESIDE = 0.3
+"""The ground is drawn so far (m) around the walk."""
 
 _USUAL_SOLE = Sole(0.1, 0.05)
 """Drawn where a record does not know its robot's soles."""
@@ -62,8 +66,24 @@ def measured_footprints(record: Record) -> list[tuple[int, Array]]:
     return footprints
 
 
+def draw_ground(ax: Axes, record: Record) -> None:
+    """Shade the ground by its height around the walk, the higher the darker, where not level."""
+    if isinstance(record.ground, FlatGround):
+        return
+    way = from_start(record, np.concatenate([record.left_foot, record.right_foot])[:, :2, 3])
+    (x0, y0), (x1, y1) = way.min(axis=0) - BESIDE, way.max(axis=0) + BESIDE
+    x, y = np.meshgrid(np.linspace(x0, x1, 400), np.linspace(y0, y1, 200))
+    (cx, cy), yaw = start_frame(record)
+    c, s = np.cos(yaw), np.sin(yaw)
+    heights = record.ground.height(cx + c * x - s * y, cy + s * x + c * y)
+    low = float(np.quantile(heights, 0.02))
+    shade = np.clip(heights, low, None)
+    ax.pcolormesh(x, y, shade, cmap="Greys", alpha=0.5, shading="auto", zorder=0, rasterized=True)
+
+
 def draw_top_view(ax: Axes, record: Record) -> None:
     """Draw soles (planned dashed, measured filled), ZMP and CoM in the start's frame, m."""
+    draw_ground(ax, record)
     known = bool(np.isfinite(record.run.sole).all())
     sole = Sole(*record.run.sole) if known else _USUAL_SOLE
     for foot, pose in measured_footprints(record):

@@ -146,7 +146,7 @@ OPTIONS = (
         "--ground",
         "NAME:KEY=VALUE,...",
         text("the name of a ground, as slope:degrees=8"),
-        "slope, stairs, ramps, blocks or stones; footsteps are laid on it, --velocity is blind",
+        "slope, stairs, ramps, blocks, stones, rough or heightfield:FILE; all steps are laid on it",
     ),
     Option(
         "--push",
@@ -200,6 +200,7 @@ OPTIONS = (
 """The options that take a value, in the order of `--help`."""
 
 FLAGS = {
+    "--blind": "the robot takes the --ground for level and feels its way",
     "--no-plots": "write record.npz and summary.json only (and walk.mp4 where it is asked for)",
     "--video": "write walk.mp4 too; needs no screen",
     "--view": "show the walk live; needs a screen; the mouse can push the robot",

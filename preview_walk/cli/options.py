@@ -32,6 +32,7 @@ class Options:
         start: x, y (m), yaw (rad).
         friction: of the ground.
         ground: what is walked on, in words.
+        blind: whether the robot knows nothing of it.
         pushes: (begin, duration, force) in s, s and N.
         random_pushes: (every, impulse) in s and N·s.
         seed: of whatever is random.
@@ -67,6 +68,7 @@ class Options:
     list_robots: bool
     inspect: str | None
     no_plots: bool = False
+    blind: bool = False
 
 
 def parse(argv: Sequence[str] | None = None) -> Options:
@@ -115,6 +117,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         list_robots=found.list_robots,
         inspect=found.inspect,
         no_plots=found.no_plots,
+        blind=found.blind,
     )
 
 

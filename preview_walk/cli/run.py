@@ -110,6 +110,8 @@ def _walk(
         }
         if options.ground is not None:
             settings["ground"] = pw.read_ground(options.ground)
+        if options.blind:
+            settings["blind"] = True
         if plan is None:
             return pw.simulate_commands(robot, options.commands, start=options.start, **settings)
         return pw.simulate(robot, plan, **settings)

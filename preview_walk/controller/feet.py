@@ -169,10 +169,12 @@ class Feet:
             x, y, z = sole[:3, 3].tolist()
             roll, pitch, _ = rpy_of(stood)
             start = pose_at(x, y, yaw_of(sole), z, pitch, roll)
-            swing = Swing(start, step.pose, step.lift, step.land, self._swing_height)
+            swing = Swing(
+                start, step.pose, step.lift, step.land, self._swing_height, shape=step.swing
+            )
             contact = felt = False
         elif swing.end is not step.pose or swing.land != step.land:
-            swing = swing.retarget(t, step.pose, step.land)
+            swing = swing.retarget(t, step.pose, step.land, step.swing)
         descending = t > step.lift + DESCENT * (step.land - step.lift)
         landed = not contact and descending and touching
         if landed:

@@ -7,51 +7,41 @@ from collections.abc import Mapping
 import numpy as np
 
 from preview_walk.arguments import instance_of, number_within, real_array, shown
+from preview_walk.controller.airborne import Airborne
+from preview_walk.controller.balance import Balance
+from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
 from preview_walk.controller.feet import Feet
-from preview_walk.controller.landing import Landing, held_soles, stood_soles
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
+from preview_walk.controller.torso import torso_motion
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
+from preview_walk.footsteps.laying import relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.planar import wrap
-from preview_walk.geometry.poses import pose_at, yaw_of
-from preview_walk.geometry.support import Sole
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
 from preview_walk.pattern.walker_model import WalkerModel
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
 from preview_walk.robots.robot import Robot
-from preview_walk.stabilizer.com_feedback import (
-    CentroidalState,
-    ComFeedback,
-    FeedbackGains,
-    Support,
-    com_feedback,
-)
-from preview_walk.stabilizer.disturbance import Disturbance, observe
-from preview_walk.stabilizer.flight import UNFELT, Flight, feel, stand_on, waiting
-from preview_walk.stabilizer.lift import Lift, Rise, observe_lift
-from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
-from preview_walk.stabilizer.situation import Situation
-from preview_walk.stabilizer.step_limits import step_limits
+from preview_walk.stabilizer.com_feedback import CentroidalState, ComFeedback
+from preview_walk.stabilizer.flight import waiting
+from preview_walk.terrain.ground import Ground
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.measured import check_forces
+from preview_walk.tracking.measured import check_wrenches
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
 
 SWING_HEIGHT = 0.06
 """Height of the swing foot's apex over the leg's length, where none is given."""
 
-LEAN = 0.1
-"""How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
-give, trunk and arms do by their angular momentum."""
+BLIND_SWING_HEIGHT = 0.12
+"""The same where the ground is not known."""
 
 
 class Walker:
     """Walks a robot along a live plan: call `tick` with the measured state, `follow` another plan.
 
     Attributes:
-        robot, gains: what it was made of.
+        robot, gains, ground: what it was made of.
         swing_height: of a swing's apex above the higher of its two soles, m.
         weight: of the robot, N.
         body: the whole-body controller; add tasks of one's own to it.
@@ -59,9 +49,8 @@ class Walker:
         feet: which stand and which swing.
         reference: of the CoM at the last tick.
         feedback: what the stabilizer asked for at the last tick.
-        disturbance: what pushes the DCM, as observed.
-        lift: what holds the robot up beside the ground, as observed.
-        flight: whether the soles feel the ground.
+        balance: notices pushes and answers them.
+        airborne: notices lifts and flights.
     """
 
     def __init__(
@@ -75,6 +64,8 @@ class Walker:
         solver: str = "osqp",
         swing_height: float | None = None,
         com_generator: str = "preview",
+        ground: Ground | None = None,
+        blind: bool = False,
     ) -> None:
         """Stand on the plan's first soles.
 
@@ -87,11 +78,15 @@ class Walker:
             solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
             com_generator: "preview", "mpc" or "dcm".
+            ground: what all steps are laid on; None takes footholds as they are given.
+            blind: whether the ground is what the soles feel, wherever the plan has them.
 
         Raises:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
+        self.ground = ground
+        self.blind = blind
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
@@ -101,31 +96,22 @@ class Walker:
         self.body.update(q, np.zeros(robot.pin.nv))
         leg = robot.leg_length
         self.swing_height = (
-            SWING_HEIGHT * leg
+            (BLIND_SWING_HEIGHT if blind else SWING_HEIGHT) * leg
             if swing_height is None
             else number_within(swing_height, "swing_height", 0.0, leg, "m, the leg's length")
         )
         self.weight = robot.mass * robot.gravity
         com = self.body.dynamics.com.copy()
-        model = WalkerModel(
-            leg_geometry(robot), robot.sole, momentum_model(robot), self.swing_height
-        )
+        legs = leg_geometry(robot)
+        model = WalkerModel(legs, robot.sole, momentum_model(robot), self.swing_height)
         self.pattern = WalkingPattern(plan, com, model, com_generator)
         self.feet = Feet(plan, self.weight, self.swing_height)
-        self.disturbance = Disturbance()
         self.reference: ComReference = self.pattern.at(plan.start)
         self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
-        self._rates = FeedbackGains(self.pattern.omega, self.gains.dcm, self.gains.height)
-        lean = LEAN * robot.leg_length
-        self._reach = Sole(robot.sole.half_length + lean, robot.sole.half_width + lean)
-        self._recovery = RecoveryMemory()
-        self._limits = step_limits(
-            robot.leg_length, robot.step_width, robot.sole, self.pattern.omega
-        )
         self._planned_until = -np.inf
-        self.flight = Flight()
-        self.lift = Lift()
-        self._landing: Landing | None = None
+        self.balance = Balance(robot, self.pattern.omega, self.gains, blind)
+        self.airborne = Airborne(robot)
+        self._felt = FeltGround(plan)
 
     def __repr__(self) -> str:
         return f"Walker({self.robot.name}, {self.plan!r})"
@@ -139,6 +125,14 @@ class Walker:
         """Walk by another plan from now on: the one place where plans are replaced."""
         self.pattern.follow(plan)
 
+    def laid(self, plan: FootstepPlan) -> FootstepPlan:
+        """Return a plan with its new steps on the ground, as far as that is known."""
+        if self.blind:
+            return swung(plan, self.plan, CAREFUL)
+        if self.ground is None:
+            return plan
+        return relay(plan, self.plan, self.ground, gait_limits(self.robot))
+
     def change(self, plan: FootstepPlan, t: float) -> None:
         """Walk by a plan that somebody else made, if it fits to where the feet are.
 
@@ -150,146 +144,105 @@ class Walker:
             InvalidInput: it does not begin where the feet are, or is out of the legs' reach; the
                 old plan goes on.
         """
+        plan = self.laid(plan)
         soles = {foot: self.body.dynamics.soles[foot].pose for foot in FEET}
         refused = refusal(plan, self.plan, t, gait_limits(self.robot), soles)
         if refused is not None:
             raise refused
         self.follow(plan)
 
-    def tick(self, t: float, q: Array, v: Array, normal_force: Mapping[Foot, float]) -> Array:
+    def tick(self, t: float, q: Array, v: Array, wrench: Mapping[Foot, Array]) -> Array:
         """Return the joint torques (n,) in N·m for the state measured at time t.
 
         Args:
             t: now, s; must not go back.
             q: (nq,) configuration, Pinocchio's conventions.
             v: (nv,) velocity, Pinocchio's conventions.
-            normal_force: what each sole's force sensor reads, N.
+            wrench: [force; moment] (6,) on each sole about its centre, world axes, N, N·m.
 
         Raises:
             StateError: the state cannot be measured: not finite, or absurd.
         """
-        check_forces(normal_force)
+        check_wrenches(wrench)
+        normal_force = {foot: float(wrench[foot][2]) for foot in FEET}
         self.body.update(q, v)
         dynamics = self.body.dynamics
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
-        self._feel_ground(t, sum(normal_force.values()) / self.weight)
-        if self.flight.airborne:
-            self._fly(t, state)
-        else:
-            self._walk(t, state, normal_force)
         soles = {foot: dynamics.soles[foot].pose for foot in FEET}
+        self.airborne.feel(t, sum(normal_force.values()) / self.weight, self.body, self.plan)
+        borne = self.airborne.borne
+        if borne is not None:
+            dynamics.add_lift(*borne)
+        if self.airborne.flight.airborne:
+            self._fly(t)
+        else:
+            self._walk(t, soles, normal_force)
         self.reference = self.pattern.at(t)
         standing = [soles[foot] for foot in self.feet.standing]
-        self.feedback = com_feedback(
-            state,
-            self.reference,
-            self.disturbance.rate,
-            Support(standing, self.robot.sole, self._reach),
-            self._rates,
-        )
+        self.feedback = self.balance.feedback(state, self.reference, standing)
         self._set_tasks()
+        if self.blind:
+            for foot, twist in settling(t, self.feet.states, wrench, self.body):
+                self.body.settle[foot] = self.body.settle.get(foot, 0.0) + twist
         return self.body.torques(self.feet.normal_limits(t, self.plan))
 
-    def _feel_ground(self, t: float, load: float) -> None:
-        """Notice what lifts the robot, and flight; `load`: of the soles, a share of the weight."""
-        dynamics, planned = self.body.dynamics, 0.0
-        if self.body.solution is not None:
-            planned = float(self.body.solution.wrench[2::6].sum()) / self.weight
-        momentum = dynamics.momentum_jacobian @ dynamics.v
-        now = Rise(t, float(dynamics.com_velocity[2]), load, planned, momentum)
-        self.lift = observe_lift(self.lift, now, self.robot.gravity)
-        if self.lift.lifted:
-            dynamics.add_lift(self.lift.share * self.weight, self.lift.moment)
-        clearance = 0.0
-        if load <= UNFELT:  # else it does not matter
-            ground = max(float(self.plan.sole(foot, t)[2, 3]) for foot in FEET)
-            lower = min(float(dynamics.soles[foot].position[2]) for foot in FEET)
-            clearance = lower - ground
-        self.flight = feel(self.flight, t, load, clearance, self.lift.lifted)
-
-    def _walk(self, t: float, state: CentroidalState, normal_force: Mapping[Foot, float]) -> None:
-        """Follow the plan, or another one where recovery or the ground asks for it."""
-        if self._landing is not None:
-            self._land(t, state)
+    def _walk(self, t: float, soles: dict[Foot, Array], normal_force: dict[Foot, float]) -> None:
+        """Follow the plan, or another one where a landing, a push or the ground asks for it."""
+        before = self.feet.states.copy()
+        plan = self.airborne.land(t, self.plan, self.body.dynamics)
+        if plan is not None:
+            self._land(t, plan)
         if t >= self._planned_until:
             self._planned_until = t + PLANNING_DT - 1e-9
-            self._recover(t, state)
-        soles = {foot: self.body.dynamics.soles[foot].pose for foot in FEET}
+            self._replan(t)
         early = self.feet.follow(t, self.plan, soles, normal_force)
+        if self.blind:
+            plan = self._felt.feel(t, self.plan, (before, self.feet.states), soles)
+            if plan is not None:
+                self.follow(plan)
         if early is not None:
-            plan = early_landing(self.plan, t, early, soles[early], self._recovery)
+            plan = self.balance.landed(t, self.plan, early, soles[early])
             if plan is not None:
                 self.follow(plan)
 
-    def _fly(self, t: float, state: CentroidalState) -> None:
+    def _fly(self, t: float) -> None:
         """Hold the soles ready to land, and the plan's steps back."""
-        lifted, dynamics = self.lift.lifted, self.body.dynamics
-        held = held_soles(self.robot, dynamics, state.velocity[:2] / self.pattern.omega, lifted)
-        step = self.plan.next_lift(t)
-        if self._landing is None or (step is not None and step.lift < t + self.plan.weight_shift):
-            self.follow(stand_on(self.plan, t, held))
-        if self._landing is None or self._landing.lifted != lifted:
-            self._landing = Landing.begin(t, dynamics, lifted)
-        fall = (1.0 - self.lift.share if lifted else 1.0) * self.robot.gravity
-        self.feet.fly(self._landing.targets(t, state, held, fall))
+        plan, targets = self.airborne.fly(t, self.plan, self.body.dynamics, self.pattern.omega)
+        if plan is not None:
+            self.follow(plan)
+        self.feet.fly(targets)
 
-    def _land(self, t: float, state: CentroidalState) -> None:
+    def _land(self, t: float, plan: FootstepPlan) -> None:
         """Stand where the robot has come down; what pushed it before is forgotten."""
-        self._landing = None
-        self.disturbance, self._recovery = Disturbance(), RecoveryMemory()
-        self.follow(stand_on(self.plan, t, stood_soles(self.body.dynamics)))
-        self.pattern.land(t, state.com)
+        self.balance.forget()
+        self.follow(self.laid(plan))
+        self.pattern.land(t, self.body.dynamics.com)
         self.feet.land(t)
 
-    def _recover(self, t: float, state: CentroidalState) -> None:
-        """Observe what pushes the robot, and walk by another plan where recovery has one.
-
-        Without ground to step on the plan waits.
-        """
-        omega = self.pattern.omega
-        dcm = state.dcm(omega)
-        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega)
-        situation = Situation(
-            t,
-            self.plan,
-            dcm,
-            self.disturbance.rate,
-            self.pattern.planned_dcm,
-            self._free_swing(t),
-        )
-        if self.flight.flies:
+    def _replan(self, t: float) -> None:
+        """Walk by another plan where a push asks for it; without ground to step on, wait."""
+        dynamics = self.body.dynamics
+        self.balance.observe(t, dynamics, self.feedback.sole_zmp)
+        if self.airborne.flight.flies:
             plan = waiting(self.plan, t)
             if plan is not None:
                 self.follow(plan)
             return
-        decision = recover(situation, self._recovery, self._limits)
-        self._recovery = decision.memory
-        if decision.plan is not None:
-            self.follow(decision.plan)
-            self.pattern.rejoin(t, state.com[:2])
-
-    def _free_swing(self, t: float) -> tuple[Array, Array] | None:
-        """Return position and velocity (3,), world, of the sole that swings freely, or None."""
-        step = self.plan.swing_at(t)
-        if step is None or self.feet.states[step.foot].contact:
-            return None
-        sole = self.body.dynamics.soles[step.foot]
-        return sole.position, sole.rotation @ sole.velocity[:3]
+        plan = self.balance.answer(t, self.pattern, self.feet, dynamics)
+        if plan is not None:
+            self.follow(self.laid(plan))
+            self.pattern.rejoin(t, dynamics.com[:2])
 
     def _set_tasks(self) -> None:
         """Hand feedback and targets to the tasks; the torso stays upright between the feet."""
         body, targets = self.body, self.feet.targets
         body.com.acceleration = self.feedback.acceleration
-        body.sink.clear()
-        turning = 0.0
+        body.settle.clear()
         for foot, target in targets.items():
             task = body.foot_tasks[foot]
             task.pose, task.velocity = target.pose, target.velocity
             task.acceleration = target.acceleration
             if target.sink:
-                body.sink[foot] = target.sink
-            if not target.contact:
-                turning += 0.5 * float(target.velocity[5])
-        a, b = yaw_of(targets["left"].pose), yaw_of(targets["right"].pose)
-        body.torso.rotation = pose_at(0.0, 0.0, a + 0.5 * wrap(b - a))[:3, :3]
-        body.torso.velocity = np.array((0.0, 0.0, turning))
+                body.settle[foot] = np.zeros(6)
+                body.settle[foot][:3] = -target.sink * body.dynamics.soles[foot].rotation[2]
+        body.torso.rotation, body.torso.velocity = torso_motion(targets)

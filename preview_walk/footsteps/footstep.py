@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from preview_walk.arguments import SMALLEST, finite_number, foot_of, shown
+from preview_walk.arguments import SMALLEST, finite_number, foot_of, instance_of, shown
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.swing_shape import PLAIN, SwingShape
 from preview_walk.geometry.poses import as_pose, yaw_of
 from preview_walk.types import Array, Foot
 
@@ -29,6 +30,7 @@ class Footstep:
         land: time (s) at which the sole is down at `pose`.
         type: "swing_end" for a step; "stance" for the two soles a plan starts on (lift == land).
         again: whether the foot that stepped last may step again at once, as after a push.
+        swing: how the foot goes there.
 
     Raises:
         InvalidInput: unknown foot or type, no pose, or times that are not finite and in order.
@@ -40,6 +42,7 @@ class Footstep:
     land: float
     type: Literal["stance", "swing_end"] = "swing_end"
     again: bool = False
+    swing: SwingShape = PLAIN
 
     def __post_init__(self) -> None:
         """Check the fields."""
@@ -49,6 +52,7 @@ class Footstep:
             raise InvalidInput(
                 f"type must be 'stance' or 'swing_end', got {came}.", argument="type"
             )
+        instance_of(self.swing, SwingShape, "swing")
         object.__setattr__(self, "pose", as_pose(self.pose, "pose"))
         lift, land = finite_number(self.lift, "lift", "s"), finite_number(self.land, "land", "s")
         stands = self.type == "stance"

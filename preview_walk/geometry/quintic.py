@@ -60,9 +60,10 @@ class Quintic:
         )
 
     def accelerations(self, t: Array) -> Array:
-        """Return the acceleration (N,) at times (N,) in s within the span: the last of `at`."""
+        """Return the acceleration (N,) at times (N,) in s: the last of `at`, 0 outside the span."""
         h = self.end - self.start
         u = (t - self.start) / h
         _, _, c, d, e, f = self.coefficients
         result: Array = (2.0 * c + u * (6.0 * d + u * (12.0 * e + u * 20.0 * f))) / (h * h)
+        result[(u < 0.0) | (u > 1.0)] = 0.0
         return result

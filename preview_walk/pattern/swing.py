@@ -16,6 +16,7 @@ from preview_walk.arguments import SMALLEST, finite_number, instance_of, number_
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.footsteps.swing_shape import PLAIN, SwingShape
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import as_pose, pose_at, rpy_of
 from preview_walk.geometry.quintic import Quintic, State
@@ -41,6 +42,7 @@ class Swing:
         ground_clearance: height (m) of the sole centre above the straight line from one sole
             centre to the other, at least, between 10 % and 90 % of its horizontal travel; the
             apex is raised where `swing_height` alone does not.
+        shape: when it rises, travels and comes down, and how high it goes at least.
         plane: the quintics of x, y, yaw, pitch and roll; left out when a swing is made.
         vertical: those of the height, one after the other; left out when a swing is made.
 
@@ -54,6 +56,7 @@ class Swing:
     land: float
     swing_height: float = 0.05
     ground_clearance: float = 0.02
+    shape: SwingShape = PLAIN
     plane: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
     vertical: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
 
@@ -70,20 +73,30 @@ class Swing:
             raise InvalidInput(f"a swing needs lift < land, got {times}.", argument="land")
         for name in ("swing_height", "ground_clearance"):
             object.__setattr__(self, name, number_from_zero(getattr(self, name), name, "m"))
+        instance_of(self.shape, SwingShape, "shape")
         first, last = _coordinates(self.start), _coordinates(self.end)
+        go, arrive = self._way(self.lift, self.land)
         plane = tuple(
-            Quintic.between(self.lift, self.land, (p, 0.0, 0.0), (q, 0.0, 0.0))
+            Quintic.between(go, arrive, (p, 0.0, 0.0), (q, 0.0, 0.0))
             for p, q in zip(first, _near(last, first), strict=True)
         )
         z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
-        middle = 0.5 * (self.lift + self.land)
+        middle = self.lift + self.shape.apex * (self.land - self.lift)
         vertical = _over(self.lift, (z0, 0.0, 0.0), middle, self._apex(z0, z1), self.land, z1)
         object.__setattr__(self, "plane", plane)
         object.__setattr__(self, "vertical", vertical)
 
+    def _way(self, t: float, land: float) -> tuple[float, float]:
+        """Return when the way to a landing at time `land` (s) begins and ends, seen from t (s)."""
+        swing = land - self.lift
+        go, arrive = self.lift + self.shape.before * swing, land - self.shape.after * swing
+        # What is late travels until it lands.
+        return max(t, go), (arrive if arrive > max(t, go) + SMALLEST else land)
+
     def _apex(self, z0: float, z1: float) -> float:
         """Return the height (m) of the apex over soles at these two heights (m)."""
-        return max(z0, z1) + max(self.swing_height, self.ground_clearance / RISEN_SHARE)
+        least = max(self.swing_height, self.shape.height, self.ground_clearance / RISEN_SHARE)
+        return max(z0, z1) + least
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
         """Return pose (4, 4), velocity (6,) and acceleration (6,) of the sole at time t (s).
@@ -125,7 +138,9 @@ class Swing:
                 return piece
         return self.vertical[-1]
 
-    def retarget(self, t: float, pose: Array, land: float | None = None) -> Swing:
+    def retarget(
+        self, t: float, pose: Array, land: float | None = None, shape: SwingShape | None = None
+    ) -> Swing:
         """Return the swing that is on this one at time t (s) and lands at `pose` at `land` (s).
 
         Position, velocity and acceleration are continuous at t.  A foot that still rises goes
@@ -138,6 +153,7 @@ class Swing:
             t: now, s, lift <= t < land.
             pose: sole pose (4, 4) of the new landing.
             land: new landing time, s, > t; None keeps it.
+            shape: of the swing from now on; None keeps it.
 
         Raises:
             InvalidInput: t is not within the swing, or `land` is not after t.
@@ -150,6 +166,8 @@ class Swing:
         if not land > t:
             raise InvalidInput(f"land must be after t = {t:.3f} s, got {land} s.", argument="land")
         end = as_pose(pose, "pose")
+        if shape is not None and shape != self.shape:
+            return replace(self, shape=shape).retarget(t, end, land)
         plane, vertical = self._new_plane(t, end, land), self._new_vertical(t, end, land)
         return replace(self, end=end, land=land, plane=plane, vertical=vertical)
 
@@ -157,8 +175,9 @@ class Swing:
         """Return the quintics of the plane from the present motion to another landing."""
         now = tuple(q.at(t) for q in self.plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
+        go, arrive = self._way(t, land)
         plane = tuple(
-            Quintic.between(t, land, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
+            Quintic.between(go, arrive, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
         )
         before = self.plane[0].end
         if t < before < land and _overshoots(plane[0], plane[1]):
@@ -233,7 +252,13 @@ def swing_of(
     instance_of(plan, FootstepPlan, "plan")
     instance_of(step, Footstep, "step")
     return Swing(
-        plan.start_pose(step), step.pose, step.lift, step.land, swing_height, ground_clearance
+        plan.start_pose(step),
+        step.pose,
+        step.lift,
+        step.land,
+        swing_height,
+        ground_clearance,
+        step.swing,
     )
 
 

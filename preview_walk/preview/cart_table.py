@@ -19,7 +19,7 @@ import numpy as np
 
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import read_only, require_positive
+from preview_walk.preview.checks import positive, read_only
 from preview_walk.types import Array
 
 if TYPE_CHECKING:
@@ -151,9 +151,7 @@ def natural_frequency(z_c: float, gravity: float = GRAVITY) -> float:
         InvalidInput: If one of them is not a positive, finite number.
 
     """
-    require_positive("z_c", z_c, "m")
-    require_positive("gravity", gravity, "m/s^2")
-    return math.sqrt(gravity / z_c)
+    return math.sqrt(positive("gravity", gravity, "m/s^2") / positive("z_c", z_c, "m"))
 
 
 def transition(tau: float) -> tuple[Array, Array]:
@@ -182,8 +180,8 @@ def zmp_output(z_c: float, gravity: float = GRAVITY) -> Array:
         InvalidInput: If one of them is not a positive, finite number.
 
     """
-    natural_frequency(z_c, gravity)
-    return np.array([[1.0, 0.0, -z_c / gravity]])
+    lever = positive("z_c", z_c, "m") / positive("gravity", gravity, "m/s^2")
+    return np.array([[1.0, 0.0, -lever]])
 
 
 def cart_table(
@@ -210,9 +208,9 @@ def cart_table(
     if dt is None:
         a, b, timebase = np.eye(3, k=1), np.array([[0.0], [0.0], [1.0]]), 0.0
     else:
-        require_positive("dt", dt, "s")
+        timebase = positive("dt", dt, "s")
         try:
-            (a, b), timebase = transition(float(dt)), float(dt)
+            a, b = transition(timebase)
         except OverflowError:
             raise InvalidInput(
                 f"expected dt whose third power is a number, got {dt:g} s.", argument="dt"

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -25,6 +27,25 @@ class Value:
         """Pickle the fields alone: what is derived from them is derived again."""
         names = [field.name for field in fields(self)]
         return type(self), tuple(getattr(self, name) for name in names)
+
+
+@contextmanager
+def computable(argument: str) -> Iterator[None]:
+    """Say in a sentence which argument is too large, too small or too near to singular to solve.
+
+    Raises:
+        InvalidInput: If linear algebra fails inside.
+
+    """
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            yield
+    except np.linalg.LinAlgError as error:
+        raise InvalidInput(
+            f"expected a system and weights of sizes that can be computed with, got: "
+            f"{str(error).rstrip('.')}.",
+            argument=argument,
+        ) from error
 
 
 def read_only(array: Array) -> Array:
@@ -74,17 +95,20 @@ def sequence(name: str, value: object, columns: int) -> Array:
     return rows
 
 
-def require_positive(name: str, value: float, unit: str) -> None:
-    """Refuse what is not a positive, finite number."""
+def positive(name: str, value: object, unit: str) -> float:
+    """Return a positive, finite number as a float, of whatever type it came."""
     try:
-        valid = math.isfinite(value) and value > 0.0
+        if isinstance(value, str | bytes | bool | np.bool_):
+            raise TypeError
+        number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
-        valid = False
-    if not valid:
+        number = math.nan
+    if not 0.0 < number < math.inf:
         raise InvalidInput(
             f"expected {name} to be a positive number of {unit}, got {shown(value)}.",
             argument=name,
         )
+    return number
 
 
 def require_type(name: str, value: object, kind: type) -> None:

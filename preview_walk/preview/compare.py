@@ -1,4 +1,4 @@
-"""LQR, LQI, preview and MPC on the same plant: errors, effort and time side by side."""
+"""LQR, LQI, preview, MPC and Wieber's on one plant: errors, effort and time side by side."""
 
 from __future__ import annotations
 
@@ -13,14 +13,17 @@ from preview_walk.errors import InvalidInput
 from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
-from preview_walk.preview.limits import Limits, output_limits
+from preview_walk.preview.half_planes import HalfPlanes
+from preview_walk.preview.least_input import LeastInputServo
+from preview_walk.preview.limited import LimitedServo
+from preview_walk.preview.limits import Limits
 from preview_walk.preview.response import Tracking, read_disturbance
 from preview_walk.preview.servo import PreviewServo
 from preview_walk.types import Array
 
-LAWS = ("LQR", "LQI", "preview", "MPC")
-"""What `compare` runs: no preview and no integral action, no preview, the design, and the design
-within limits."""
+LAWS = ("LQR", "LQI", "preview", "MPC", "Wieber")
+"""What `compare` runs: no preview and no integral action, no preview, the design, the design within
+limits, and the least input within limits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,21 +108,23 @@ def compare(
     disturbance: ArrayLike | None = None,
     x0: ArrayLike | None = None,
     limits: Limits | None = None,
-    laws: Sequence[str] = LAWS,
+    laws: Sequence[str] | None = None,
 ) -> Comparison:
     """Run several laws with the same weights on the same plant.
 
     LQR has neither preview nor integral action and weights state and input with what the others
-    weight their increments with; LQI has no preview; MPC is the preview servo within limits. All of
-    them measure the state, and cut their input to its limits.
+    weight their increments with; LQI has no preview; MPC is the preview servo within limits.
+    Wieber's follows no reference: it looks for the least input, weighed by R, that keeps the limits
+    over the horizon. All of them measure the state, and cut their input to its limits.
 
     Args:
         design: A preview servo, from `preview_gains`.
         reference: (M, p), or (M,) when p = 1; held past its end.
         disturbance: (M, q), or (M,) when q = 1, acting on all; only preview and MPC foresee it.
         x0: (n,) state at the start; zero when None.
-        limits: Limits of inputs and outputs; none when None. Only MPC knows those of outputs.
-        laws: Which of `LAWS` to run.
+        limits: Limits of inputs and outputs; none when None. Only MPC and Wieber's know those of
+            outputs.
+        laws: Which of `LAWS` to run; all when None, Wieber's where there are polygons.
 
     Raises:
         InvalidInput: If a shape is wrong, a value not finite or a law unknown.
@@ -128,6 +133,8 @@ def compare(
     require_type("design", design, PreviewDesign)
     limits = Limits() if limits is None else limits
     require_type("limits", limits, Limits)
+    if laws is None:
+        laws = LAWS if limits.polygons is not None else LAWS[:-1]
     if (
         isinstance(laws, str)
         or not isinstance(laws, Sequence)
@@ -139,14 +146,13 @@ def compare(
     r = sequence("reference", reference, len(design.plant.C))
     w = read_disturbance(design, disturbance, len(r))
     start = finite_vector("x0", x0, np.zeros(len(design.plant.A)))
-    bounds = output_limits(limits.y_min, limits.y_max, r.shape)
+    planes = limits.of_outputs(*r.shape)
     results = []
     for name in laws:
         servo = _servo(name, design, limits)
-        run, seconds = _simulate(servo, r, np.zeros((len(r), 0)) if w is None else w, start, bounds)
-        excess = np.maximum(run.y - bounds[1], bounds[0] - run.y)
-        outside = float(np.maximum(excess, 0.0).max())
-        results.append(LawResult(name, run, seconds, getattr(servo, "failures", 0), outside))
+        run, seconds = _simulate(servo, r, np.zeros((len(r), 0)) if w is None else w, start, planes)
+        failures = servo.failures if isinstance(servo, LimitedServo) else 0
+        results.append(LawResult(name, run, seconds, failures, planes.outside(run.y)))
     return Comparison(design, r, limits, tuple(results))
 
 
@@ -157,6 +163,8 @@ def _servo(name: str, design: PreviewDesign, limits: Limits) -> PreviewServo:
         from preview_walk.preview.mpc import PredictiveServo
 
         return PredictiveServo(design, limits)
+    if name == "Wieber":
+        return LeastInputServo(design, limits)
     if name == "LQR":
         design = preview_gains(design.plant, *weights, 0, integral=False)
     elif name == "LQI":
@@ -165,21 +173,20 @@ def _servo(name: str, design: PreviewDesign, limits: Limits) -> PreviewServo:
 
 
 def _simulate(
-    servo: PreviewServo, r: Array, w: Array, start: Array, bounds: tuple[Array, Array]
+    servo: PreviewServo, r: Array, w: Array, start: Array, limits: HalfPlanes
 ) -> tuple[Tracking, float]:
     """Return the run of a servo on its plant, and the mean time of a step (s)."""
     plant, ahead = servo.design.plant, servo.design.horizon
-    r_held, w_held, low, high = (
-        np.concatenate([part, np.repeat(part[-1:], ahead, axis=0)]) for part in (r, w, *bounds)
-    )
-    predictive = hasattr(servo, "failures") and np.isfinite(np.concatenate(bounds)).any()
+    r_held, w_held = (np.concatenate([v, np.repeat(v[-1:], ahead, axis=0)]) for v in (r, w))
     state, x, spent = servo.start(start), start, 0.0
     xs, us = np.empty((len(r), len(start))), np.empty((len(r), plant.B.shape[1]))
     for k in range(len(r)):
-        window = slice(k, k + ahead + 1)
-        more = {"y_limits": (low[window], high[window])} if predictive else {}
+        known = r_held[k : k + ahead + 1], w_held[k : k + ahead]
         begin = time.perf_counter()
-        state = servo.step(state, r_held[window], w_held[k : k + ahead], **more)
+        if isinstance(servo, LimitedServo):
+            state = servo.step(state, *known, y_limits=limits.window(k, ahead + 1))
+        else:
+            state = servo.step(state, *known)
         spent += time.perf_counter() - begin
         xs[k], us[k] = x, state.u
         x = plant.A @ x + plant.B @ state.u + plant.E @ w[k]

@@ -12,15 +12,21 @@ from matplotlib.figure import Figure
 
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
-from preview_walk.preview.checks import require_type
+from preview_walk.preview.checks import require_type, shown
 from preview_walk.preview.compare import Comparison
-from preview_walk.preview.limits import input_limits, output_limits
+from preview_walk.preview.limits import input_limits
 from preview_walk.types import Array
 
-COLOURS = {"LQR": "#E69F00", "LQI": "#009E73", "preview": "#0072B2", "MPC": "#D55E00"}
+COLOURS = {
+    "LQR": "#E69F00",
+    "LQI": "#009E73",
+    "preview": "#0072B2",
+    "MPC": "#D55E00",
+    "Wieber": "#CC79A7",
+}
 """Okabe and Ito's palette: told apart with any common colour vision, and in grey."""
 
-WIDTHS = {"LQR": 3.0, "LQI": 1.2, "preview": 3.0, "MPC": 1.2}
+WIDTHS = {"LQR": 3.0, "LQI": 1.2, "preview": 3.0, "MPC": 1.2, "Wieber": 1.2}
 """Laws that often coincide are drawn thin over thick."""
 
 
@@ -47,7 +53,7 @@ def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Pat
     axes = figure.subplots(p + m, 1, sharex=True, squeeze=False)[:, 0]
     t: Array = comparison.design.dt * np.arange(len(r), dtype=np.float64)
     limits = comparison.limits
-    y_sides = output_limits(limits.y_min, limits.y_max, (len(r), p))
+    y_sides = limits.extent(len(r), p)
     u_sides = input_limits(limits.u_min, limits.u_max, m)
     for row, name in enumerate(plant.outputs):
         axes[row].plot(t, r[:, row], color="0.3", linewidth=1.0, linestyle="--", label="reference")
@@ -78,7 +84,7 @@ def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Pat
         axis.spines[["top", "right"]].set_visible(False)
     counted = plant.dt is True
     axes[-1].set_xlabel("sample" if counted else "time [s]")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=5,
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=6,
                   frameon=False)  # fmt: skip
     return save(figure, path)
 
@@ -95,7 +101,7 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> Path:
         target = Path(path)
     except TypeError:
         raise InvalidInput(
-            f"expected path to be a file name, got {path!r}.", argument="path"
+            f"expected path to be a file name, got {shown(path)}.", argument="path"
         ) from None
     suffix, formats = target.suffix.lstrip(".").lower(), figure.canvas.get_supported_filetypes()
     if suffix not in formats:

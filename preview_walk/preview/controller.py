@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table, coasted
-from preview_walk.preview.checks import read_only, real_array, require_positive, require_type, shown
+from preview_walk.preview.checks import positive, read_only, real_array, require_type, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.horizon import MAX_HORIZON
@@ -68,9 +68,9 @@ class PreviewController:
                 sqrt(z_c / g) of the pendulum.
 
         """
-        require_positive("dt", dt, "s")
+        dt = positive("dt", dt, "s")
         system = cart_table(z_c, dt)
-        require_positive("preview_time", preview_time, "s")
+        preview_time = positive("preview_time", preview_time, "s")
         if not preview_time / dt <= MAX_HORIZON:
             raise InvalidInput(
                 f"expected preview_time to be at most {MAX_HORIZON} samples of dt = {dt:g} s, got "
@@ -78,7 +78,7 @@ class PreviewController:
                 argument="preview_time",
             )
         self.z_c = float(z_c)
-        self.dt = float(dt)
+        self.dt = dt
         self.n_preview = max(1, round(preview_time / dt))
         try:
             design = preview_gains(system, q_e, q_x, r, self.n_preview)

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.checks import computable, shown
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.horizon import check_horizon, samples, slow_mode, warn_if_short
 from preview_walk.preview.plant import Linear, Plant, read_plant
@@ -91,23 +92,37 @@ def preview_gains(
             constants of the slow mode of the gains.
 
     """
-    plant = read_plant(system, dt, E)
-    n, m, p = len(plant.A), plant.B.shape[1], len(plant.C)
-    weights = Weights(
-        weight_matrix("Q_e", Q_e, p),
-        weight_matrix("Q_x", Q_x, n),
-        weight_matrix("R", R, m, definite=True),
-    )
-    horizon = check_horizon(N)
-    require_stabilisable(plant)
-    if final_cost is not None:
-        if not integral:
+    with computable("system"):
+        plant = read_plant(system, dt, E)
+        weights = Weights(
+            weight_matrix("Q_e", Q_e, len(plant.C)),
+            weight_matrix("Q_x", Q_x, len(plant.A)),
+            weight_matrix("R", R, plant.B.shape[1], definite=True),
+        )
+        horizon = check_horizon(N)
+        require_stabilisable(plant)
+        if not isinstance(integral, bool | np.bool_):
             raise InvalidInput(
-                "expected final_cost for a servo with integral action only, got integral=False.",
-                argument="final_cost",
+                f"expected integral to be True or False, got {shown(integral)}.",
+                argument="integral",
             )
-        final = weight_matrix("final_cost", final_cost, p + n)
-        return _usable(receding_horizon(plant, weights, final, horizon))
+        if final_cost is not None:
+            if not integral:
+                raise InvalidInput(
+                    "expected final_cost for a servo with integral action only, got "
+                    "integral=False.",
+                    argument="final_cost",
+                )
+            final = weight_matrix("final_cost", final_cost, len(plant.C) + len(plant.A))
+            return _usable(receding_horizon(plant, weights, final, horizon))
+        design = _usable(_of_all_time(plant, weights, horizon, bool(integral)))
+    warn_if_short(design.horizon, design.slow_mode, design.dt, stacklevel=2)
+    return design
+
+
+def _of_all_time(plant: Plant, weights: Weights, horizon: float, integral: bool) -> PreviewDesign:
+    """Return the servo that minimises the cost of all samples to come."""
+    p = len(plant.C)
     if integral:
         law = solve_reachable(error_augmented(plant, weights), p)
         columns = -law.riccati[:, :p], law.riccati @ np.vstack([plant.C @ plant.E, plant.E])
@@ -118,14 +133,12 @@ def preview_gains(
         own = _reference_gain(plant, weights, law, columns[0])
     slow = slow_mode(law.closed, law.left, np.hstack(columns))
     count = samples(horizon, slow, len(law.closed))
-    warn_if_short(count, slow, float(plant.dt), stacklevel=2)
-    design = PreviewDesign(
+    return PreviewDesign(
         plant, weights.Q_e, weights.Q_x, weights.R,
         own, law.gain[:, p:].copy() if integral else law.gain,
         _decaying(law, columns[0], count), law.riccati, law.closed, law.residual, slow,
         _decaying(law, columns[1], count), integral,
     )  # fmt: skip
-    return _usable(design)
 
 
 def _usable(design: PreviewDesign) -> PreviewDesign:

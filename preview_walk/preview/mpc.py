@@ -18,15 +18,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import require_type
+from preview_walk.preview.checks import computable
 from preview_walk.preview.design import PreviewDesign, loop_matrices
+from preview_walk.preview.half_planes import HalfPlanes, beside, of_box
 from preview_walk.preview.least_norm import ROUNDS, TOLERANCE, least_norm
-from preview_walk.preview.limits import Limits, output_limits
+from preview_walk.preview.limited import LimitedServo
+from preview_walk.preview.limits import Limits
 from preview_walk.preview.problem import Weights, error_augmented, positional
 from preview_walk.preview.recursion import Recursion
 from preview_walk.preview.response import Correlation
-from preview_walk.preview.servo import PreviewServo, ServoState
+from preview_walk.preview.servo import ServoState
 from preview_walk.types import Array
 
 
@@ -38,7 +39,7 @@ class Prediction:
     y: Array
 
 
-class PredictiveServo(PreviewServo):
+class PredictiveServo(LimitedServo):
     """A preview servo that plans within limits, by a quadratic programme at each sample.
 
     Attributes:
@@ -61,16 +62,9 @@ class PredictiveServo(PreviewServo):
             InvalidInput: If limits contradict each other or a shape is wrong.
 
         """
-        require_type("limits", limits, Limits)
-        super().__init__(
-            design, u_min=limits.u_min, u_max=limits.u_max, observer_gain=observer_gain
-        )
-        if design.horizon < 1:
-            raise InvalidInput("expected a design with N >= 1, got N = 0.", argument="design")
+        super().__init__(design, limits, observer_gain=observer_gain)
         plant = design.plant
         n, m = plant.B.shape
-        self.failures = 0
-        self._limits = limits
         a, b, self._c, self._d = loop_matrices(design)
         self._on_z = -design.feedback + (np.eye(m, n + m, n) if design.integral else 0.0)
         push = np.eye(len(a), n)
@@ -81,8 +75,11 @@ class PredictiveServo(PreviewServo):
         weights = Weights(design.Q_e, design.Q_x, design.R)
         problem = (error_augmented if design.integral else positional)(plant, weights)
         inner = problem.r + problem.g.T @ design.riccati @ problem.g
+        sides = (np.tile(side, (design.horizon + 1, 1)) for side in (self.u_min, self.u_max))
+        self._input_limits = of_box(*sides)
         # In c~ = L' c the Hessian of the programme is the identity.
-        self._root = np.linalg.inv(np.linalg.cholesky(inner)).T
+        with computable("design"):
+            self._root = np.linalg.inv(np.linalg.cholesky(inner)).T
         impulse = np.zeros((m, design.horizon + 1, m))
         impulse[:, 0] = self._root.T
         zero = np.zeros((m, design.horizon + 1, n))
@@ -90,46 +87,14 @@ class PredictiveServo(PreviewServo):
         # (N + 1, m + p, m): what c~(0) does to the limited signals i samples later.
         self._impulse = np.concatenate([answer.u, answer.y], axis=2).transpose(1, 2, 0)
 
-    def step(
-        self,
-        state: ServoState,
-        window: ArrayLike,
-        disturbance: ArrayLike | None = None,
-        *,
-        y_limits: tuple[Array, Array] | None = None,
-    ) -> ServoState:
-        """Return the state one sample later; its `u` is to be held.
-
-        Args:
-            state: The state at sample k.
-            window: (N + 1, p) reference at the samples k to k + N; (N + 1,) when p = 1.
-            disturbance: (N, q) disturbance at the samples k to k + N - 1; zero when None.
-            y_limits: Lower and upper limits of the output at the samples k to k + N, each
-                (N + 1, p); those of the servo's `Limits` when None.
-
-        Raises:
-            InvalidInput: If a window has another shape or holds NaN or infinity.
-
-        """
-        require_type("state", state, ServoState)
-        design, plant = self.design, self.design.plant
-        shape = (design.horizon + 1, len(plant.C))
-        r = self._window("window", window, *shape).reshape(shape)
-        w: Array = np.zeros((design.horizon, plant.E.shape[1]))
-        if disturbance is not None:
-            w = self._window("disturbance", disturbance, *w.shape).reshape(w.shape)
-        if y_limits is None:
-            y_limits = output_limits(self._limits.y_min, self._limits.y_max, shape)
-        free = self._free(state, r, w)
-        low = np.hstack([np.broadcast_to(self.u_min, free.u.shape), y_limits[0]])
-        high = np.hstack([np.broadcast_to(self.u_max, free.u.shape), y_limits[1]])
-        first = self._least_change(np.hstack([free.u, free.y]), low, high)
+    def _planned(self, state: ServoState, future: tuple[Array, Array], planes: HalfPlanes) -> Array:
+        free = self._free(state, *future)
+        limits = beside(self._input_limits, planes)
+        first = self._least_change(np.hstack([free.u, free.y]), limits)
         if first is None:
             self.failures += 1
-        wanted = free.u[0] if first is None else free.u[0] + first
-        u = np.clip(wanted, self.u_min, self.u_max)
-        x = plant.A @ state.x + plant.B @ u + plant.E @ w[0]
-        return ServoState(x, u, np.zeros(len(x)), np.zeros(len(plant.C)))
+            first = np.zeros(len(self.u_min))
+        return np.asarray(free.u[0] + first)
 
     def _free(self, state: ServoState, r: Array, w: Array) -> Prediction:
         """Return what the servo itself would do; what is known ends with the window."""
@@ -154,23 +119,22 @@ class PredictiveServo(PreviewServo):
         z = self._loop.run(np.concatenate([action, push], axis=2), start)
         return Prediction(z @ self._on_z.T + action, z @ self._c.T + action @ self._d.T)
 
-    def _least_change(self, free: Array, low: Array, high: Array) -> Array | None:
+    def _least_change(self, free: Array, limits: HalfPlanes) -> Array | None:
         """Return c(0) of the least change of (N + 1, m + p) signals that obeys the limits."""
         m = len(self.u_min)
-        slack = TOLERANCE * (1.0 + np.minimum(np.abs(low), np.abs(high)))
-        rows = np.zeros((0, free.shape[0] * m))
-        bounds, signals = np.zeros(0), free
-        change = np.zeros(rows.shape[1])
+        allowed = limits.offsets + TOLERANCE * (1.0 + np.abs(limits.offsets))
+        rows, bounds = np.zeros((0, free.shape[0] * m)), np.zeros(0)
+        room = limits.offsets - limits.along(free)
+        change, signals = np.zeros(rows.shape[1]), free
         for _ in range(ROUNDS):
-            above, below = signals > high + slack, signals < low - slack
-            if not (above.any() or below.any()):
+            broken = limits.along(signals) > allowed
+            if not broken.any():
                 return np.asarray(self._root @ change[:m])
-            for broken, sign, limit in ((above, 1.0, high), (below, -1.0, low)):
-                for i, j in np.argwhere(broken):
-                    row = np.zeros(rows.shape[1])
-                    row[: (i + 1) * m] = sign * self._impulse[i::-1, j].ravel()
-                    rows = np.vstack([rows, row])
-                    bounds = np.append(bounds, sign * (limit[i, j] - free[i, j]))
+            for i, j in np.argwhere(broken):
+                row = np.zeros(rows.shape[1])
+                row[: (i + 1) * m] = (limits.normals[i, j] @ self._impulse[i::-1]).ravel()
+                rows = np.vstack([rows, row])
+            bounds = np.append(bounds, room[broken])
             found = least_norm(rows, bounds)
             if found is None:
                 return None

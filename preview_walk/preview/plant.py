@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import Value, real_array, require_positive, shown
+from preview_walk.preview.checks import Value, positive, real_array, shown
 from preview_walk.types import Array
 
 if TYPE_CHECKING:
@@ -71,16 +71,15 @@ def read_plant(system: Linear, dt: float | None = None, E: ArrayLike | None = No
             dt = 0 for a continuous-time one.
         dt: Sampling time (s) at which a continuous-time plant is discretised by `control.c2d`, u
             and w held over a sample; or the sampling time of (A, B, C, D), not specified when
-            None.
+            None or True.
         E: (n, q) disturbance matrix, or (n,) for one disturbance; none when None.
 
     Raises:
         InvalidInput: If it is none of these, not finite, or its sampling time cannot be.
 
     """
-    if dt is not None:
-        require_positive("dt", dt, "s")
-        dt = float(dt)  # which may have come as a Decimal
+    if dt is not None and dt is not True:
+        dt = positive("dt", dt, "s")
     if isinstance(system, Plant) and dt is None and E is None:
         return system
     space = _state_space(system, dt)
@@ -101,7 +100,7 @@ def read_plant(system: Linear, dt: float | None = None, E: ArrayLike | None = No
         np.array(part, dtype=float) for part in (space.A, space.B, space.C, space.D, e)
     )
     return Plant(
-        a, b, c, d, e, float(dt) if dt is not None and space.dt is True else space.dt,
+        a, b, c, d, e, dt if dt is not None and space.dt is True else space.dt,
         tuple(space.state_labels), tuple(space.input_labels), tuple(space.output_labels),
         tuple(f"disturbance[{i}]" for i in range(e.shape[1])), space.name,
     )  # fmt: skip
@@ -134,9 +133,16 @@ def _state_space(system: Linear, dt: float | None) -> control.StateSpace:
     if isinstance(system, control.StateSpace):
         space = system
     elif isinstance(system, control.TransferFunction):
-        space = _realised(system)
+        try:
+            space = _realised(system)
+        except ValueError as error:
+            raise InvalidInput(
+                "expected a transfer function with a state space, got one with more zeros than "
+                "poles.",
+                argument="system",
+            ) from error
     elif isinstance(system, tuple | list) and len(system) in (4, 5):
-        base = _time_base(system[4]) if len(system) == 5 else (True if dt is None else float(dt))
+        base = _time_base(system[4]) if len(system) == 5 else (True if dt is None else dt)
         parts = [real_array("system", part, "matrices A, B, C, D") for part in system[:4]]
         try:
             # Useless states are the caller's own: a state without effect keeps its place.
@@ -173,9 +179,8 @@ def _time_base(value: object) -> float | bool:
     if value is True or (isinstance(value, int | float) and value == 0 and value is not False):
         return value
     try:
-        require_positive("dt", value, "s")  # type: ignore[arg-type]
-        return float(value)  # type: ignore[arg-type]
-    except (InvalidInput, TypeError, OverflowError):
+        return positive("dt", value, "s")
+    except InvalidInput:
         raise InvalidInput(
             f"expected dt in (A, B, C, D, dt) to be a number of s, 0 or True, got {shown(value)}.",
             argument="system",
@@ -228,7 +233,7 @@ def _discretised(
     """Return the zero-order hold of plant and disturbance at dt."""
     import control
 
-    if dt is None:
+    if dt is None or dt is True:
         raise InvalidInput(
             "expected a discrete-time system with a sampling time in seconds, got dt = 0; "
             "the argument dt discretises a continuous-time one, as control.c2d(system, dt) does.",

@@ -39,13 +39,27 @@ class Weights:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A regulator problem; S is None where it is zero."""
+    """A regulator problem; S is None where it is zero.
+
+    Raises:
+        InvalidInput: If products of plant and weights are too large to be numbers.
+
+    """
 
     phi: Array
     g: Array
     q: Array
     r: Array
     s: Array | None
+
+    def __post_init__(self) -> None:
+        """Look for overflows."""
+        parts = self.phi, self.g, self.q, self.r, self.s
+        if not all(np.isfinite(part).all() for part in parts if part is not None):
+            raise InvalidInput(
+                "expected a system and weights whose products are finite, got an overflow.",
+                argument="Q_e",
+            )
 
 
 def error_augmented(plant: Plant, weights: Weights) -> Problem:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import finite_vector, require_type, sequence, shown
+from preview_walk.preview.checks import computable, finite_vector, require_type, sequence, shown
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.recursion import Recursion
 from preview_walk.types import Array
@@ -210,12 +210,15 @@ def preview_effect(
     r = sequence("reference", reference, len(design.plant.C))
     x0, u0 = rest(design, r[0])
     try:
-        lengths = list(horizons)
+        # A list would take whatever has an index, transfer functions too.
+        lengths = list(horizons) if isinstance(horizons, Iterable) else None
     except TypeError:
+        lengths = None
+    if lengths is None:
         raise InvalidInput(
             f"expected horizons to be several numbers of samples, got {shown(horizons)}.",
             argument="horizons",
-        ) from None
+        )
     errors = []
     for horizon in lengths:
         shorter = shortened(design, horizon)
@@ -248,7 +251,8 @@ def rest(design: PreviewDesign, output: Array) -> tuple[Array, Array]:
     a, b, c, d = design.plant.A, design.plant.B, design.plant.C, design.plant.D
     n = len(a)
     equations = np.block([[a - np.eye(n), b], [c, d]])
-    found = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
+    with computable("design"):
+        found = np.linalg.lstsq(equations, np.append(np.zeros(n), output), rcond=None)[0]
     return found[:n], found[n:]
 
 

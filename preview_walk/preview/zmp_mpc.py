@@ -18,46 +18,10 @@ from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComTrajectory, cart_table
-from preview_walk.preview.checks import finite_vector, real_array, require_positive, shown
+from preview_walk.preview.checks import finite_vector, positive
+from preview_walk.preview.half_planes import of_polygons
 from preview_walk.preview.least_distance import least_distance
-from preview_walk.types import Array
-
-
-def half_planes(polygon: ArrayLike) -> tuple[Array, Array]:
-    """Return (V, 2) outward unit normals and (V,) offsets (m) of a convex polygon's sides.
-
-    Args:
-        polygon: (V, 2) vertices (m), V >= 3, in order, either way round.
-
-    Raises:
-        InvalidInput: If it is not a convex polygon with an inside.
-
-    """
-    vertices = real_array("polygon", polygon)
-    flat = vertices.ndim == 2 and vertices.shape[1] == 2 and len(vertices) >= 3
-    if not (flat and np.isfinite(vertices).all()):
-        raise InvalidInput(
-            f"expected a polygon of shape (V, 2) with V >= 3, finite, got shape {vertices.shape}.",
-            argument="polygon",
-        )
-    edges = np.roll(vertices, -1, axis=0) - vertices
-    following = np.roll(edges, -1, axis=0)
-    turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
-    lengths = np.linalg.norm(edges, axis=1)
-    if not (lengths > 0.0).all() or not ((turns > 0.0).all() or (turns < 0.0).all()):
-        raise InvalidInput(
-            "expected a convex polygon whose vertices are corners in order, got one that is not.",
-            argument="polygon",
-        )
-    return sides(vertices if turns[0] > 0.0 else vertices[::-1])
-
-
-def sides(polygon: Array) -> tuple[Array, Array]:
-    """Return (V, 2) outward unit normals and (V,) offsets (m) of a polygon, counter-clockwise."""
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    lengths = np.hypot(edges[:, 0], edges[:, 1])
-    normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / lengths[:, None]
-    return normals, np.einsum("vi,vi->v", normals, polygon)
+from preview_walk.preview.least_input import MAX_HORIZON, conditions, outputs_ahead
 
 
 def zmp_mpc(
@@ -86,69 +50,36 @@ def zmp_mpc(
             the polygons.
 
     """
-    require_positive("dt", dt, "s")
-    require_positive("preview_time", preview_time, "s")
-    horizon = _horizon(preview_time, dt)
-    try:
-        polygons = list(supports)
-    except TypeError:
-        raise InvalidInput(
-            f"expected supports to be polygons, one for each sample, got {shown(supports)}.",
-            argument="supports",
-        ) from None
-    planes = [half_planes(polygon) for polygon in polygons]
-    if not planes:
-        raise InvalidInput("expected at least one support polygon, got none.", argument="supports")
+    dt = positive("dt", dt, "s")
+    horizon = _horizon(positive("preview_time", preview_time, "s"), dt)
+    planes = of_polygons("supports", supports)
     plant = cart_table(z_c, dt)
-    a, b, c = plant.A, plant.B, plant.C
-    free, forced = zmp_ahead(a, b, c, horizon)
-    state = np.zeros((3, 2))
-    state[0] = finite_vector("com", com, np.asarray(polygons[0], dtype=float).mean(axis=0))
-    rows = np.empty((len(planes), 5, 2))
+    a, b, c, d = (np.kron(np.eye(2), part) for part in (plant.A, plant.B, plant.C, plant.D))
+    ahead = outputs_ahead(a, b, c, d, horizon)
+    middle = np.asarray(supports[0], dtype=float).mean(axis=0)
+    state = np.zeros(6)
+    state[::3] = finite_vector("com", com, middle)
+    rows = np.empty((len(planes.offsets), 5, 2))
     jerk = np.zeros(2)
-    for k in range(len(planes)):
-        rows[k, :3], rows[k, 3], rows[k, 4] = state, jerk, c[0] @ state
-        window = [planes[min(k + i, len(planes) - 1)] for i in range(1, horizon + 1)]
-        found = _least_jerk(free @ state, forced, window)
+    for k, row in enumerate(rows):
+        row[:3], row[3], row[4] = state.reshape(2, 3).T, jerk, c @ state
+        window = planes.window(k + 1, horizon)
+        found = least_distance(*conditions(ahead.free @ state, ahead.forced, window))
         if found is None:
             raise InvalidInput(
                 f"expected supports in which a jerk can keep the ZMP, got none at {k * dt:.4g} s.",
                 argument="supports",
             )
-        jerk = found
-        state = a @ state + b @ jerk[None]
+        jerk = found[:2]
+        state = a @ state + b @ jerk
     return ComTrajectory(dt, *(np.ascontiguousarray(rows[:, i]) for i in range(5)))
 
 
 def _horizon(preview_time: float, dt: float) -> int:
-    most = 1000
-    if not preview_time / dt <= most:
+    if not preview_time / dt <= MAX_HORIZON:
         raise InvalidInput(
-            f"expected preview_time to be at most {most} samples of dt = {dt:g} s, got "
+            f"expected preview_time to be at most {MAX_HORIZON} samples of dt = {dt:g} s, got "
             f"{preview_time:g} s.",
             argument="preview_time",
         )
     return max(1, round(preview_time / dt))
-
-
-def zmp_ahead(a: Array, b: Array, c: Array, horizon: int) -> tuple[Array, Array]:
-    """Return P_x (N, 3) and P_u (N, N) of the ZMP at samples 1 to N, P_x x + P_u jerks."""
-    free, forced = np.empty((horizon, 3)), np.zeros((horizon, horizon))
-    power = np.eye(3)
-    impulse = []
-    for i in range(horizon):
-        impulse.append((c @ power @ b).item())
-        power = a @ power
-        free[i] = c @ power
-        forced[i, : i + 1] = impulse[::-1]
-    return free, forced
-
-
-def _least_jerk(free: Array, forced: Array, window: list[tuple[Array, Array]]) -> Array | None:
-    """Return the first jerk (2,) of the least that keep the ZMP within the window's half-planes."""
-    rows, bounds = [], []
-    for i, (normals, offsets) in enumerate(window):
-        rows.append(np.hstack([normals[:, :1] * forced[i], normals[:, 1:] * forced[i]]))
-        bounds.append(offsets - normals @ free[i])
-    found = least_distance(np.vstack(rows), np.concatenate(bounds))
-    return None if found is None else found.reshape(2, -1)[:, 0]

@@ -18,6 +18,8 @@ from preview_walk.record.read_only import ReadOnlyArrays, own_array
 from preview_walk.record.run_facts import RunFacts
 from preview_walk.record.summarize import summarize
 from preview_walk.record.summary import Summary
+from preview_walk.terrain.facts import ground_of
+from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import Array
 
 
@@ -69,6 +71,11 @@ class Record(ReadOnlyArrays, Ticks):
     def dt(self) -> float:
         """Control period in s."""
         return self.run.dt
+
+    @property
+    def ground(self) -> Ground:
+        """What was walked on; level at height 0 where the record does not know."""
+        return ground_of(self.run.ground) or FlatGround()
 
     @property
     def qpos(self) -> Array:

@@ -37,6 +37,8 @@ class RunFacts:
         control_hz: ticks of the controller per second.
         physics_hz: steps of the physics per second.
         friction: Coulomb friction between soles and floor.
+        ground: what was walked on, as plain values; `Record.ground` makes it one again.
+        blind: whether the walker took the ground for level and felt its way.
         seed: of whatever was random.
         solver: the QP solver's name.
         gains: weights and gains of the tracker by name.
@@ -70,6 +72,8 @@ class RunFacts:
     swing_height: float = nan
     physics_hz: float = nan
     friction: float = nan
+    ground: Mapping[str, Any] = ReadOnlyMapping({})
+    blind: bool = False
     seed: int = 0
     solver: str = ""
     gains: Mapping[str, Any] = ReadOnlyMapping({})

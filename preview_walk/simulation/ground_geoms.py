@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import copy
 from math import cos, sqrt
 
 import mujoco
 import numpy as np
 
 from preview_walk.errors import InvalidInput
+from preview_walk.robots.load import spec_of
+from preview_walk.robots.robot import Robot
 from preview_walk.terrain.ground import FlatGround, Ground
+from preview_walk.terrain.height_field import HeightField
 from preview_walk.terrain.slabs import Slab, SlabGround
 
 THICKNESS = 0.5
@@ -18,12 +22,28 @@ COLOUR = (0.76, 0.80, 0.84, 1.0)
 """Of slabs (r, g, b, a)."""
 
 
+def model_on(robot: Robot, ground: Ground | None, visuals: bool) -> mujoco.MjModel:
+    """Return a model of a robot on its ground, one's own to change.
+
+    Args:
+        robot: the robot, or a copy of one.
+        ground: what it stands on; None is level.
+        visuals: with its visual shapes.
+    """
+    if ground is None and not visuals:
+        return copy.copy(robot.mj)
+    spec = spec_of(robot, visuals)
+    if ground is not None:
+        add_ground(spec, ground)
+    return spec.compile()
+
+
 def add_ground(spec: mujoco.MjSpec, ground: Ground) -> None:
     """Add a ground to a robot's spec, whose floor it lowers or leaves.
 
     Args:
         spec: with a geom named "floor".
-        ground: a `FlatGround` or a `SlabGround`.
+        ground: a `FlatGround`, a `SlabGround` or a `HeightField`.
 
     Raises:
         InvalidInput: another kind of ground.
@@ -34,10 +54,40 @@ def add_ground(spec: mujoco.MjSpec, ground: Ground) -> None:
         spec.geom("floor").pos[2] = ground.floor
         for number, slab in enumerate(ground.slabs):
             _add_slab(spec, f"slab_{number}", slab)
+    elif isinstance(ground, HeightField):
+        spec.geom("floor").pos[2] = ground.floor
+        _add_field(spec, ground)
     else:
         raise InvalidInput(
-            f"ground must be a FlatGround or a SlabGround, got a {type(ground).__name__}.", "ground"
+            "ground must be a FlatGround, a SlabGround or a HeightField, as HeightField.of makes "
+            f"of a function, got a {type(ground).__name__}.",
+            "ground",
         )
+
+
+def _add_field(spec: mujoco.MjSpec, field: HeightField) -> None:
+    """Add a height field; MuJoCo's rows go along y, its columns along x."""
+    heights = field.heights.T
+    low, high = float(heights.min()), float(heights.max())
+    half = 0.5 * field.spacing * (np.array(field.heights.shape) - 1)
+    tall = max(high - low, 1e-6)
+    spec.add_hfield(
+        name="ground",
+        nrow=heights.shape[0],
+        ncol=heights.shape[1],
+        size=(*half, tall, THICKNESS),
+        userdata=((heights - low) / tall).astype(np.float32).ravel(),
+    )
+    spec.worldbody.add_geom(
+        name="ground",
+        type=mujoco.mjtGeom.mjGEOM_HFIELD,
+        hfieldname="ground",
+        pos=(field.x + half[0], field.y + half[1], low),
+        rgba=COLOUR,
+        contype=2,
+        conaffinity=1,
+        condim=3,
+    )
 
 
 def _add_slab(spec: mujoco.MjSpec, name: str, slab: Slab) -> None:

@@ -14,6 +14,7 @@ from preview_walk.record.recorder import Recorder, package_versions
 from preview_walk.record.run_facts import RunFacts
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.simulation.plant import Plant
+from preview_walk.terrain.facts import facts_of
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
 
 NO_CONTACT = -1
@@ -39,6 +40,8 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
         swing_height=walker.swing_height,
         physics_hz=1.0 / plant.timestep,
         friction=plant.friction,
+        ground=facts_of(plant.ground),
+        blind=walker.blind,
         pushes=tuple(asdict(push) for push in plant.pushes),
         gains=asdict(walker.gains),
         versions=package_versions(),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
@@ -17,11 +17,11 @@ from preview_walk.robots.finding.tree import Tree
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
 from preview_walk.simulation.pushes import Push, Pusher
+from preview_walk.simulation.scene_ground import scene_ground
 from preview_walk.simulation.world import FRICTION
-from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
 
-_FREE, _PLANE = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtGeom.mjGEOM_PLANE)
+_FREE = int(mujoco.mjtJoint.mjJNT_FREE)
 _JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
 _CLAMP = int(mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL)
 
@@ -97,9 +97,8 @@ class Scene:
         self._qpos = np.concatenate([np.arange(first, first + 7), model.jnt_qposadr[joints]])
         self._qvel = np.concatenate([np.arange(dof, dof + 6), model.jnt_dofadr[joints]])
         self._feet = _parts(robot, tree)
-        floor, friction = _floor(tree, self._feet)
+        self.ground, friction = scene_ground(tree, self._feet)
         self.friction = min(FRICTION, friction)
-        self.ground: Ground = FlatGround(floor)
         self.timestep = positive_number(model.opt.timestep, "the model's timestep", "s")
         self._gain, self._actuator = _actuators(tree, joints)
         self._driven = self._actuator >= 0
@@ -181,36 +180,6 @@ def _parts(robot: Robot, tree: Tree) -> dict[int, Foot]:
             if int(tree.mj.geom_bodyid[geom]) in bodies:
                 feet[geom] = foot
     return feet
-
-
-def _floor(tree: Tree, feet: dict[int, Foot]) -> tuple[float, float]:
-    """Return the height (m) of the level plane that the feet touch, and the least friction."""
-    mj = tree.mj
-    for plane in range(mj.ngeom):
-        level = tree.data.geom_xmat[plane][8] > 0.9999
-        if int(mj.geom_type[plane]) != _PLANE or not level or mj.body_weldid[mj.geom_bodyid[plane]]:
-            continue
-        friction = _touching(mj, plane, feet)
-        if {feet[geom] for geom in friction} == set(FEET):
-            return float(tree.data.geom_xpos[plane][2]), min(friction.values())
-    raise RobotError("the model has no floor: expected a level plane that both feet can touch")
-
-
-def _touching(mj: mujoco.MjModel, plane: int, feet: Collection[int]) -> dict[int, float]:
-    """Return the friction between a plane and those geoms of the feet that can touch it."""
-    kinds, answers = mj.geom_contype, mj.geom_conaffinity
-    slide = mj.geom_friction[:, 0]
-    friction = {
-        geom: float(max(slide[plane], slide[geom]))
-        for geom in feet
-        if kinds[plane] & answers[geom] or kinds[geom] & answers[plane]
-    }
-    for pair in range(mj.npair):  # contacts declared one by one
-        ends = {int(mj.pair_geom1[pair]), int(mj.pair_geom2[pair])}
-        for geom in ends & set(feet):
-            if plane in ends:
-                friction[geom] = float(mj.pair_friction[pair, 0])
-    return friction
 
 
 def _actuators(tree: Tree, joints: Array) -> tuple[Array, Array]:

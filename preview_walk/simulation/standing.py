@@ -6,14 +6,19 @@ from collections.abc import Sequence
 from typing import Any
 
 from preview_walk.arguments import shown
+from preview_walk.controller.feeling import CAREFUL
+from preview_walk.controller.robot_limits import gait_limits
+from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.laying import lay_on, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.geometry.poses import as_heading, pose_at
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.standing import at_com_height
+from preview_walk.robots.standing import at_com_height, standing_configuration
 from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.world import World
+from preview_walk.terrain.ground import FlatGround
 
 _PLANT = ("robot", *sorted(name for name in vars(Plant) if not name.startswith("_")))
 """What a plant has."""
@@ -50,6 +55,29 @@ def require_plant(robot: object) -> None:
         raise InvalidInput(
             f"robot must be a Robot or a Plant, got {shown(robot)}, without {lacking[0]}.", "robot"
         )
+
+
+def stand(plant: Plant, plan: FootstepPlan, blind: bool, **settings: Any) -> Walker:
+    """Stand a plant's robot on a plan's first soles; return its walker.
+
+    Args:
+        plant: what is sensed and driven.
+        plan: the walk; laid on the plant's ground first.
+        blind: whether the walker takes the ground for level and the plan stays as it is.
+        settings: keyword arguments of `Walker`.
+
+    Raises:
+        InvalidInput: a setting that cannot be, or a plan on which the robot cannot stand.
+    """
+    robot, ground = plant.robot, None
+    if not blind and not isinstance(plant.ground, FlatGround):
+        ground = plant.ground
+        plan = lay_on(plan, ground, gait_limits(robot))
+    if blind:
+        plan = swung(plan, FootstepPlan(plan[:2]), CAREFUL)
+    q = standing_configuration(robot, plan[0].pose, plan[1].pose)
+    plant.place(q, plan.start)
+    return Walker(robot, plan, q, friction=plant.friction, ground=ground, blind=blind, **settings)
 
 
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:

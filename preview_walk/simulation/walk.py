@@ -14,21 +14,19 @@ from preview_walk.arguments import (
     instance_of,
 )
 from preview_walk.controller.robot_limits import command_limits
-from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
-from preview_walk.robots.standing import standing_configuration
 from preview_walk.simulation.commands import Command, VelocityCommands
-from preview_walk.simulation.fall import fall_reason
+from preview_walk.simulation.fall import fall_reason, over_edges
 from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
-from preview_walk.simulation.standing import plant_of, standing_plan
+from preview_walk.simulation.standing import plant_of, stand, standing_plan
 from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
@@ -79,6 +77,7 @@ class Walk:
         on_tick: Callable[[Walk], None] | None = None,
         visuals: bool | None = None,
         ground: Ground | None = None,
+        blind: bool = False,
     ) -> None:
         """Stand the robot on the plan's first soles.
 
@@ -99,7 +98,8 @@ class Walk:
                 (the least jerk with the ZMP on the soles) or "dcm" (it follows the plan's DCM).
             on_tick: called with the walk at the end of every tick, before the physics steps.
             visuals: run on the model with visual meshes, for the live viewer.
-            ground: what the robot stands on; None is level. A plan must lie on it (`lay_on`).
+            ground: what the robot stands on; None is level. All plans are laid on it (`lay_on`).
+            blind: whether the walker takes the ground for level, whatever it is, and feels its way.
 
         Raises:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
@@ -115,13 +115,10 @@ class Walk:
         self._substeps = steps_per_tick(rate, control_hz)
         require_rates(rate, control_hz, gains)
         self._dt = 1.0 / control_hz
-        q = standing_configuration(self.robot, plan[0].pose, plan[1].pose)
-        self.plant.place(q, plan.start)
-        self.walker = Walker(
-            self.robot,
+        self.walker = stand(
+            self.plant,
             plan,
-            q,
-            friction=self.plant.friction,
+            blind is True,
             gains=gains,
             solver=solver,
             swing_height=swing_height,
@@ -143,7 +140,7 @@ class Walk:
     ) -> Walk:
         """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
 
-        `settings` are the keyword arguments of `Walk`.
+        `settings`: keyword arguments of `Walk`.
         """
         return cls(robot, standing_plan(robot, start), **settings)
 
@@ -239,7 +236,7 @@ class Walk:
         """Walk by the plan that the commands ask for now."""
         plan = self._commands.plan(self.time, self.plan)
         if plan is not None:
-            self.walker.follow(plan)
+            self.walker.follow(self.walker.laid(plan))
 
     def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
         """Go on to a time, or until the robot has stood for a while after the plan.
@@ -279,8 +276,7 @@ class Walk:
             plant.sense()
             before = perf_counter()
             try:
-                load = {foot: float(plant.wrench[foot][2]) for foot in FEET}
-                torques = walker.tick(t, plant.q, plant.v, load)
+                torques = walker.tick(t, plant.q, plant.v, plant.wrench)
             except PreviewWalkError as stop:
                 self._fall = (t, str(stop))
                 return
@@ -288,7 +284,8 @@ class Walk:
             self._recorder.write(t, torques, spent)
             reason = fall_reason(walker.body.dynamics, self.robot.com_height)
             if reason is not None:
-                self._fall = (t, reason)
+                soles = {foot: self.plan.sole(foot, t) for foot in FEET}
+                self._fall = (t, reason + over_edges(soles, self.robot.sole, plant.ground))
             if self._on_tick is not None:
                 self._on_tick(self)
             plant.step(torques, self._substeps)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,10 +11,9 @@ import numpy as np
 from preview_walk.arguments import instance_of, items_of, number_within
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
-from preview_walk.robots.load import spec_of
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
-from preview_walk.simulation.ground_geoms import add_ground
+from preview_walk.simulation.ground_geoms import model_on
 from preview_walk.simulation.pushes import Push, Pusher
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import FEET, Array, Foot
@@ -74,7 +72,7 @@ class World:
         self.friction = number_within(friction, "friction", 1e-3, MAX_FRICTION)
         self.ground: Ground = FlatGround() if ground is None else ground
         self.timestep = 1.0 / rate
-        self.model = _model_of(robot, visuals is True, ground)
+        self.model = model_on(robot, ground, visuals is True)
         self.model.opt.timestep = self.timestep
         self.model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         self.model.opt.impratio = SLIP_RATIO
@@ -126,13 +124,3 @@ class World:
         for _ in range(steps):
             self.push = self._pusher.apply(data.time, data)
             mujoco.mj_step(self.model, data)
-
-
-def _model_of(robot: Robot, visuals: bool, ground: Ground | None) -> mujoco.MjModel:
-    """Return a model of the robot on its ground, one's own to change."""
-    if ground is None and not visuals:
-        return copy.copy(robot.mj)
-    spec = spec_of(robot, visuals)
-    if ground is not None:
-        add_ground(spec, ground)
-    return spec.compile()

@@ -15,6 +15,10 @@ from preview_walk.types import Array
 SMOOTHING_TIME = 0.0072
 """Time constant (s) of the estimate's first-order lag: every touch of a foot disturbs it."""
 
+ROUGH_SMOOTHING_TIME = 0.1
+"""The same on ground that is not known: soles rock on edges at some 10 Hz, and an estimate that
+follows them moves the wanted centre of pressure to and fro, which rocks them on."""
+
 
 @dataclass(frozen=True, eq=False)
 class Disturbance:
@@ -31,7 +35,9 @@ class Disturbance:
     dcm: Array = field(default_factory=lambda: np.zeros(2))
 
 
-def observe(last: Disturbance, t: float, dcm: Array, zmp: Array, omega: float) -> Disturbance:
+def observe(
+    last: Disturbance, t: float, dcm: Array, zmp: Array, omega: float, lag: float = SMOOTHING_TIME
+) -> Disturbance:
     """Return the estimate at time t (s).
 
     Args:
@@ -40,11 +46,12 @@ def observe(last: Disturbance, t: float, dcm: Array, zmp: Array, omega: float) -
         dcm: (2,) measured DCM, world, m.
         zmp: (2,) the point that drove the DCM since then, world, m.
         omega: natural frequency of the pendulum, 1/s.
+        lag: time constant of the smoothing, s.
     """
     if last.time is None:
         return Disturbance(last.rate, t, dcm)
     elapsed = t - last.time
     explained = omega * (0.5 * (dcm + last.dcm) - zmp)
     now = (dcm - last.dcm) / elapsed - explained
-    rate = last.rate + (now - last.rate) / (1.0 + SMOOTHING_TIME / elapsed)
+    rate = last.rate + (now - last.rate) / (1.0 + lag / elapsed)
     return Disturbance(rate, t, dcm)

@@ -8,7 +8,7 @@ more: where the sensors are dead nothing lifts the robot.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,21 +24,19 @@ RELEASED = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Rise:
-    """What the lift observer looks at in one instant.
+    """What the lift observer looks at in one instant: plain numbers, as it looks at every tick.
 
     Attributes:
         t: when, s.
         velocity: of the CoM, upward, m/s.
         load: of both soles as measured, as a share of the weight.
         planned: the same as the tracker planned it until now.
-        momentum: (3,) angular, about the CoM, world axes, N·m·s.
     """
 
     t: float
     velocity: float
     load: float
     planned: float
-    momentum: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,13 +45,11 @@ class Lift:
 
     Attributes:
         share: of the weight, upward, smoothed.
-        moment: (3,) about the CoM, world axes, smoothed, N·m: observed while lifted.
         lifted: whether the robot is taken to be lifted.
         last: what was looked at last; None before the first.
     """
 
     share: float = 0.0
-    moment: Array = field(default_factory=lambda: np.zeros(3))
     lifted: bool = False
     last: Rise | None = None
 
@@ -70,12 +66,39 @@ def observe_lift(before: Lift, now: Rise, gravity: float) -> Lift:
     if last is None:
         return Lift(last=now)
     elapsed = now.t - last.t
-    follow = 1.0 / (1.0 + SMOOTHING_TIME / elapsed)
     acceleration = (now.velocity - last.velocity) / elapsed
     share = acceleration / gravity + 1.0 - max(now.planned, 0.5 * (now.load + last.load))
+    follow = 1.0 / (1.0 + SMOOTHING_TIME / elapsed)
     share = before.share + follow * (share - before.share)
-    moment = np.zeros(3)
-    if before.lifted:
-        change = (now.momentum - last.momentum) / elapsed
-        moment = before.moment + follow * (change - before.moment)
-    return Lift(share, moment, share > (RELEASED if before.lifted else LIFTED), now)
+    return Lift(share, share > (RELEASED if before.lifted else LIFTED), now)
+
+
+@dataclass(frozen=True, eq=False)
+class Twist:
+    """What turns a lifted robot about its CoM, as observed since it was lifted.
+
+    Attributes:
+        t: when, s.
+        momentum: (3,) angular, about the CoM, world axes, N·m·s.
+        moment: (3,) about the CoM, world axes, smoothed, N·m.
+    """
+
+    t: float
+    momentum: Array
+    moment: Array
+
+
+def observe_twist(before: Twist | None, t: float, momentum: Array) -> Twist:
+    """Return what turns a lifted robot at time t (s).
+
+    Args:
+        before: the same a tick before; None if the robot was not lifted then.
+        t: now, s.
+        momentum: (3,) angular, about the CoM, world axes, N·m·s.
+    """
+    if before is None:
+        return Twist(t, momentum, np.zeros(3))
+    elapsed = t - before.t
+    change = (momentum - before.momentum) / elapsed
+    follow = 1.0 / (1.0 + SMOOTHING_TIME / elapsed)
+    return Twist(t, momentum, before.moment + follow * (change - before.moment))

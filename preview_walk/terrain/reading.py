@@ -6,24 +6,28 @@ from collections.abc import Callable
 from inspect import signature
 
 from preview_walk.errors import InvalidInput
+from preview_walk.terrain.ground import Ground
+from preview_walk.terrain.height_field import height_field, rough
 from preview_walk.terrain.shapes import blocks, ramps, slope, stairs, stepping_stones
-from preview_walk.terrain.slabs import SlabGround
 
-GROUNDS: dict[str, Callable[..., SlabGround]] = {
+GROUNDS: dict[str, Callable[..., Ground]] = {
     "slope": slope,
     "stairs": stairs,
     "ramps": ramps,
     "blocks": blocks,
     "stones": stepping_stones,
+    "rough": rough,
+    "heightfield": height_field,
 }
 """The grounds that have a name."""
 
 
-def read_ground(text: str) -> SlabGround:
+def read_ground(text: str) -> Ground:
     """Return the ground that a text names, as "stairs:rise=0.1,count=6".
 
     Args:
-        text: a name of `GROUNDS`, then the arguments of its function that are not the default.
+        text: a name of `GROUNDS`, then the arguments of its function that are not the default; the
+            file of a height field comes first, as in "heightfield:hills.png,height=0.1".
 
     Raises:
         InvalidInput: there is no such ground, it has no such argument, or no such ground can be.
@@ -36,8 +40,13 @@ def read_ground(text: str) -> SlabGround:
         )
     make = GROUNDS[name]
     defaults = {key: value.default for key, value in signature(make).parameters.items()}
-    given: dict[str, float | int | bool] = {}
-    for part in filter(None, rest.split(",")):
+    given: dict[str, float | int | bool | str] = {}
+    parts = list(filter(None, rest.split(",")))
+    if "file" in defaults:
+        if not parts:
+            raise InvalidInput(f"the ground '{name}' needs a file, as in {name}:FILE.", "ground")
+        given["file"] = parts.pop(0).removeprefix("file=")
+    for part in parts:
         key, _, value = (piece.strip() for piece in part.partition("="))
         if key not in defaults:
             raise InvalidInput(

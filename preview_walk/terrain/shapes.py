@@ -13,7 +13,7 @@ import numpy as np
 
 from preview_walk.arguments import count_of, finite_number, number_from_zero, positive_number
 from preview_walk.errors import InvalidInput
-from preview_walk.terrain.slabs import STEEPEST, Slab, SlabGround
+from preview_walk.terrain.slabs import DEPTH, STEEPEST, Slab, SlabGround
 
 BEGIN = 0.5
 """Default distance (m) of the first edge from the origin."""
@@ -23,9 +23,6 @@ WIDTH = 3.0
 
 END = 3.0
 """Length (m) of the level place after the last piece."""
-
-DEPTH = 1.0
-"""The floor lies this far (m) below the lowest slab."""
 
 
 @dataclass(frozen=True)

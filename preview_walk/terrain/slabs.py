@@ -20,6 +20,12 @@ from preview_walk.types import Array
 STEEPEST = 1.0
 """A slab tilted by more than this (rad) is a wall."""
 
+DEPTH = 1.0
+"""The floor lies this far (m) below the lowest ground."""
+
+SEAM = 1e-9
+"""Slabs reach this far (m) further: where two meet, rounding must not open a crack to the floor."""
+
 
 @dataclass(frozen=True)
 class Slab:
@@ -91,12 +97,13 @@ class SlabGround:
 
     def height(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the height (m) at x and y (world, m); see `Ground`."""
-        heights: Array = self._tops(x, y).max(axis=-1, initial=self.floor)
+        x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        heights: Array = _tops(self._near(x, y), x, y).max(axis=-1, initial=self.floor)
         return heights
 
     def normal(self, x: float, y: float) -> Array:
         """Return the unit normal (3,) at x, y (world, m); that of the floor beside the slabs."""
-        tops = self._tops(x, y)
+        tops = _tops(self._table, np.asarray(x), np.asarray(y))
         best = int(tops.argmax()) if len(self.slabs) else -1
         if best < 0 or tops[best] <= self.floor:
             return np.array((0.0, 0.0, 1.0))
@@ -116,12 +123,23 @@ class SlabGround:
         table: Array = np.array(rows, dtype=np.float64).reshape(-1, 9).T
         return table
 
-    def _tops(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """Return the height (..., S) of each slab's face at x and y; -inf beside it."""
-        x0, y0, z0, c, s, length, width, ahead, left = self._table
-        dx = np.asarray(x, dtype=np.float64)[..., None] - x0
-        dy = np.asarray(y, dtype=np.float64)[..., None] - y0
-        along, aside = c * dx + s * dy, c * dy - s * dx
-        inside = (np.abs(along) <= length) & (np.abs(aside) <= width)
-        tops: Array = np.where(inside, z0 + ahead * along + left * aside, -np.inf)
-        return tops
+    def _near(self, x: Array, y: Array) -> Array:
+        """Return the columns of the table whose slabs may be under these places."""
+        table = self._table
+        if not x.size or not y.size:
+            return table
+        reach = np.hypot(table[5], table[6])
+        beside = np.abs(table[0] - 0.5 * (x.max() + x.min())) - 0.5 * (x.max() - x.min()) > reach
+        beside |= np.abs(table[1] - 0.5 * (y.max() + y.min())) - 0.5 * (y.max() - y.min()) > reach
+        near: Array = table[:, ~beside]
+        return near
+
+
+def _tops(table: Array, x: Array, y: Array) -> Array:
+    """Return the height (..., S) of each slab of a table at x and y; -inf beside it."""
+    x0, y0, z0, c, s, length, width, ahead, left = table
+    dx, dy = x[..., None] - x0, y[..., None] - y0
+    along, aside = c * dx + s * dy, c * dy - s * dx
+    inside = (np.abs(along) <= length + SEAM) & (np.abs(aside) <= width + SEAM)
+    tops: Array = np.where(inside, z0 + ahead * along + left * aside, -np.inf)
+    return tops

@@ -67,13 +67,14 @@ def check_state(q: Array, v: Array, robot: Robot) -> None:
         _look(q, v, robot)
 
 
-def check_forces(forces: Mapping[Foot, float]) -> None:
-    """Raise `StateError` unless the soles' measured normal forces (N) are finite."""
+def check_wrenches(wrenches: Mapping[Foot, Array]) -> None:
+    """Raise `StateError` unless the soles' measured wrenches (6,) are finite."""
     for foot in FEET:
-        if not -inf < forces[foot] < inf:
+        # A sum is finite where all of its terms are.
+        if not -inf < float(wrenches[foot].sum()) < inf:
             raise StateError(
-                f"the measured state must be finite, got {forces[foot]} for the normal force on "
-                f"the {foot} sole."
+                f"the measured state must be finite, got {wrenches[foot].tolist()} for the wrench "
+                f"on the {foot} sole."
             )
 
 

@@ -58,7 +58,8 @@ class WholeBodyController:
         dynamics: the robot's terms at the measured state.
         com, torso, posture: tasks; `foot_tasks`: one per foot; `momentum`: in force where the gains
             give it a weight.
-        sink: how fast a foot in contact goes down, m/s, for those that have come off the ground.
+        settle: twists (6,), sole axes, m/s and rad/s, with which feet in contact come to lie on
+            the ground; a foot that is not in it stays where it is.
         backend: the solver; any object with the `Backend` protocol's `solve`.
         solution: the last tick's accelerations and wrenches; None before it.
         times: what the last tick cost.
@@ -97,7 +98,7 @@ class WholeBodyController:
         if gains.momentum_weight > 0.0:
             self.tasks.append(self.momentum)
         self.posture = _posture_task(robot, gains)
-        self.sink: dict[Foot, float] = {}
+        self.settle: dict[Foot, Array] = {}
         self.times = TickTimes()
         self.solution: Solution | None = None
         self.failure: QPFailure | None = None
@@ -201,7 +202,7 @@ class WholeBodyController:
                 self.friction,
             )
             self._problems[contacts] = problem
-        problem.fill(self.dynamics, normal_limit, self._shares(contacts), self.sink)
+        problem.fill(self.dynamics, normal_limit, self._shares(contacts), self.settle)
         return problem
 
     def _shares(self, contacts: tuple[Foot, ...]) -> tuple[float, ...]:

@@ -17,8 +17,8 @@ from preview_walk.files import as_path
 from preview_walk.geometry.poses import midfeet
 from preview_walk.offscreen import RenderError, off_screen
 from preview_walk.record.record import Record
-from preview_walk.robots.load import visual_model
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.ground_geoms import model_on
 from preview_walk.types import Array
 
 FPS = 30
@@ -54,7 +54,7 @@ def frames(
     wanted = real_array(times, "times", "times in s")
     if wanted.ndim != 1 or np.isnan(wanted).any():
         raise InvalidInput(f"times must be a row of times in s, got {shown(times)}.", "times")
-    model = visual_model(robot)
+    model = model_on(robot, record.ground, visuals=True)
     model.vis.global_.offheight, model.vis.global_.offwidth = size
     if mujoco.__version__.startswith("3."):  # whose floor shows specks of its own shadow
         model.vis.map.shadowclip = 3.0

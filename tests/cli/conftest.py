@@ -1,4 +1,4 @@
-"""For every test of the command: signals as a terminal gives them, a simulation that costs nothing."""
+"""For every test of the command: signals of a terminal, a simulation that costs nothing."""
 
 from __future__ import annotations
 

@@ -22,14 +22,15 @@ def standing(robot: Robot, left_yaw: float, right_yaw: float) -> tuple[Walker, n
     return Walker(robot, plan, q, friction=0.8), q
 
 
-def loads(walker: Walker) -> dict[Foot, float]:
-    return {"left": 0.5 * walker.weight, "right": 0.5 * walker.weight}
+def loads(left: float, right: float) -> dict[Foot, np.ndarray]:
+    """Return the wrenches of two normal forces (N) at the soles' centres."""
+    return {"left": np.eye(6)[2] * left, "right": np.eye(6)[2] * right}
 
 
 @pytest.mark.parametrize(("left", "right"), [(0.3, -0.1), (-0.05, -0.25), (3.2, 3.0)])
 def test_the_torso_faces_between_the_feet(talos: Robot, left: float, right: float) -> None:
     walker, q = standing(talos, left, right)
-    walker.tick(0.0, q, np.zeros(talos.pin.nv), loads(walker))
+    walker.tick(0.0, q, np.zeros(talos.pin.nv), loads(0.5 * walker.weight, 0.5 * walker.weight))
     facing = yaw_of(walker.body.torso.rotation)
     assert np.cos(facing - 0.5 * (left + right)) == pytest.approx(1.0, abs=1e-12)
     assert walker.body.torso.rotation[:, 2] == pytest.approx((0.0, 0.0, 1.0))
@@ -42,8 +43,7 @@ def test_the_torso_turns_with_half_the_speed_of_a_turning_swing(talos: Robot) ->
     walker = Walker(talos, plan, q, friction=0.8)
     step = plan.steps[0]
     t = 0.5 * (step.lift + step.land)
-    alone: dict[Foot, float] = {"left": 0.0, "right": walker.weight}
-    walker.tick(t, q, np.zeros(talos.pin.nv), alone)
+    walker.tick(t, q, np.zeros(talos.pin.nv), loads(0.0, walker.weight))
     turning = walker.feet.targets[step.foot].velocity[5]
     assert turning > 0.1
     assert walker.body.torso.velocity == pytest.approx((0.0, 0.0, 0.5 * turning))

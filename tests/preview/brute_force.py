@@ -27,9 +27,14 @@ def optimal_input(
     u(-1) = 0, w(-1) = 0.
     """
     matrix, right = least_squares(plant, weights, future, x0, integral=integral, final=final)
+    return solution(matrix, right).reshape(-1, plant.B.shape[1])
+
+
+def solution(matrix: Array, right: Array) -> Array:
+    """Return the u with the least |matrix u - right|."""
     with one_thread():  # on a busy machine the threads wait for each other
         q, upper = np.linalg.qr(matrix)
-        return np.asarray(solve_triangular(upper, q.T @ right)).reshape(-1, plant.B.shape[1])
+        return np.asarray(solve_triangular(upper, q.T @ right))
 
 
 def motion(plant: Plant, w: Array, x0: Array) -> tuple[Array, Array]:

@@ -152,15 +152,6 @@ def test_a_continuous_plant_is_held_over_a_sample_with_its_disturbance() -> None
     assert design.dt == design.system.dt == 0.05
 
 
-def test_time_may_count_in_samples() -> None:
-    system = control.ss(0.9, 1.0, 1.0, 0, True)
-    same = preview_gains((0.9, 1.0, 1.0, 0.0), 1.0, 0.0, 0.5, 20)
-    assert preview_gains(system, 1.0, 0.0, 0.5, 20).dt == same.dt == 1.0
-    np.testing.assert_array_equal(
-        preview_gains(system, 1.0, 0.0, 0.5, 20).preview_gain, same.preview_gain
-    )
-
-
 def test_a_transfer_matrix_without_slycot() -> None:
     g = control.tf([[[1.0], [0.5]], [[0.2], [1.0]]], [[[1.0, -0.9], [1.0, -0.5]]] * 2, 0.1)
     design = preview_gains(g, 1.0, 0.0, 0.1, 40)
@@ -193,3 +184,27 @@ def test_ill_conditioned_weights_give_a_servo_or_a_sentence(
         warnings.simplefilter("error")
         with suppress(InvalidInput):
             assert np.isfinite(preview_gains(cart_table(z_c, dt), q_e, 0.0, r, n).feedback).all()
+
+
+def test_time_may_count_in_samples() -> None:
+    matrices = [[0.9]], [[1.0]], [[1.0]], [[0.0]]
+    same = preview_gains(matrices, 1.0, 0.0, 0.1, 30)
+    for design in (
+        same,
+        preview_gains(matrices, 1.0, 0.0, 0.1, 30, dt=True),
+        preview_gains((*matrices, True), 1.0, 0.0, 0.1, 30),
+        preview_gains(control.ss(*matrices, True), 1.0, 0.0, 0.1, 30, dt=True),
+    ):
+        assert design.plant.dt is True
+        assert design.system.dt is True
+        assert design.dt == 1.0
+        np.testing.assert_array_equal(design.preview_gain, same.preview_gain)
+    for system in (control.ss(*matrices, 0), control.ss(*matrices, 0.1)):
+        with pytest.raises(InvalidInput, match="dt"):
+            preview_gains(system, 1.0, 0.0, 0.1, 30, dt=True)
+
+
+def test_a_transfer_function_with_more_zeros_than_poles_is_refused() -> None:
+    for system in (control.tf([1.0, 0.0], [1.0], 0.1), control.tf([1.0, 0.0, 1.0], [1.0, 2.0])):
+        with pytest.raises(InvalidInput, match="more zeros than poles"):
+            preview_gains(system, 1.0, 0.0, 0.1, 30, dt=0.1)

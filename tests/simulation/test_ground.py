@@ -62,6 +62,8 @@ def hit(world: World, x: float, y: float) -> float:
 
 
 def test_another_kind_of_ground_is_refused(talos: Robot) -> None:
-    with pytest.raises(InvalidInput, match=r"^ground must be a FlatGround or a SlabGround") as told:
+    with pytest.raises(
+        InvalidInput, match=r"^ground must be a FlatGround, a SlabGround or a HeightField"
+    ) as told:
         World(talos, ground="stairs")  # type: ignore[arg-type]
     assert told.value.argument == "ground"

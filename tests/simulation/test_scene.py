@@ -81,7 +81,7 @@ def test_models_that_are_made_otherwise(
     [
         (
             lambda spec: spec.delete(spec.geom("floor")),
-            "the model has no floor: expected a level plane that both feet can touch",
+            "the model has no floor: expected a fixed shape that both feet can touch",
         ),
         (
             lambda spec: setattr(spec.option, "gravity", (0.0, 0.0, -1.62)),

@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from preview_walk.stabilizer.lift import LIFTED, RELEASED, Lift, Rise, observe_lift
+from preview_walk.stabilizer.lift import (
+    LIFTED,
+    RELEASED,
+    Lift,
+    Rise,
+    Twist,
+    observe_lift,
+    observe_twist,
+)
 
 G = 9.81
 DT = 0.002
@@ -13,10 +21,10 @@ DT = 0.002
 
 def observed(lift: float, load: float, planned: float, ticks: int, before: Lift) -> Lift:
     """Return what is observed of a CoM that a constant lift and load (of the weight) move."""
-    last = before.last or Rise(0.0, 0.0, load, planned, np.zeros(3))
+    last = before.last or Rise(0.0, 0.0, load, planned)
     for k in range(ticks + 1):
         velocity = last.velocity + G * (lift + load - 1.0) * DT * k
-        now = Rise(last.t + DT * k, velocity, load, planned, np.array((0.0, 3.0 * DT * k, 0.0)))
+        now = Rise(last.t + DT * k, velocity, load, planned)
         if k or before.last is None:
             before = observe_lift(before, now, G)
     return before
@@ -37,7 +45,7 @@ def test_dead_sensors_lift_nobody() -> None:
     """The robot rests on a ground that nothing measures, as the tracker planned it."""
     lift = Lift()
     for k in range(50):
-        lift = observe_lift(lift, Rise(DT * k, 0.0, 0.0, 1.0, np.zeros(3)), G)
+        lift = observe_lift(lift, Rise(DT * k, 0.0, 0.0, 1.0), G)
     assert lift.share == pytest.approx(0.0, abs=1e-9)
 
 
@@ -46,5 +54,12 @@ def test_who_is_lifted_stays_so_until_most_of_it_is_gone() -> None:
     assert not observed(between, 0.0, 0.0, 50, Lift()).lifted
     lift = observed(between, 0.0, 0.0, 50, observed(1.1, 0.0, 0.0, 50, Lift()))
     assert lift.lifted
-    assert lift.moment == pytest.approx((0.0, 3.0, 0.0), abs=0.01)
     assert not observed(0.0, 0.0, 0.0, 50, lift).lifted
+
+
+def test_what_turns_a_lifted_robot_is_the_rate_of_its_angular_momentum() -> None:
+    twist: Twist | None = None
+    for k in range(50):
+        twist = observe_twist(twist, DT * k, np.array((1.0, 3.0 * DT * k, 0.0)))
+    assert twist is not None
+    assert twist.moment == pytest.approx((0.0, 3.0, 0.0), abs=0.01)

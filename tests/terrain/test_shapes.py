@@ -12,7 +12,7 @@ from preview_walk.terrain.reading import GROUNDS, read_ground
 from preview_walk.terrain.shapes import BEGIN, blocks, ramps, slope, stairs, stepping_stones
 
 
-@pytest.mark.parametrize("name", GROUNDS)
+@pytest.mark.parametrize("name", sorted(set(GROUNDS) - {"heightfield"}))
 def test_all_begin_with_a_level_place_to_stand_on(name: str) -> None:
     ground = GROUNDS[name]()
     x, y = np.meshgrid(np.linspace(-0.4, BEGIN - 0.01, 9), np.linspace(-0.4, 0.4, 5))
@@ -70,6 +70,10 @@ def test_a_text_names_a_ground() -> None:
         ("stairs:count=two", "expected a whole number in the ground's 'count=two'"),
         ("stairs:back=1", "expected yes or no"),
         ("stairs:tread=-0.2", "the ground 'stairs': tread must be"),
+        ("rough:height=-1", "the ground 'rough': height must be"),
+        ("heightfield", "the ground 'heightfield' needs a file, as in heightfield:FILE"),
+        ("heightfield:none.png", "the ground 'heightfield': the height field 'none.png' cannot"),
+        ("heightfield:a.npy,height=x", "expected a number in the ground's 'height=x'"),
         ("slope:degrees=nan", "the ground 'slope': degrees must be"),
         ("slope:degrees=80", "the ground 'slope': degrees must be at most 57"),
     ],

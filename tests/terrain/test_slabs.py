@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from preview_walk.errors import InvalidInput
+from preview_walk.terrain.shapes import stairs
 from preview_walk.terrain.slabs import Slab, SlabGround
 
 
@@ -30,6 +31,13 @@ def test_the_highest_slab_wins_and_beside_them_is_the_floor() -> None:
     )
     assert ground.normal(2.0, 0.0) == pytest.approx((0.0, 0.0, 1.0))
     assert ground.height(0.0, 0.0).shape == ()
+
+
+def test_no_crack_opens_where_slabs_meet() -> None:
+    """The ends of slabs in a row are sums of lengths that no binary number is."""
+    ground = stairs(0.1, 0.12, 50, begin=0.5)
+    edges = 0.5 + 0.12 * np.arange(51)
+    assert ground.height(edges, 0.0 * edges).min() >= 0.0
 
 
 def test_extents_are_measured_on_the_level() -> None:

@@ -19,7 +19,7 @@ from preview_walk.pattern.com.sampled_plan import AHEAD, PLANNING_DT, SampledPla
 from preview_walk.preview.cart_table import ComState, cart_table, coasted
 from preview_walk.preview.checks import read_only
 from preview_walk.preview.least_distance import least_distance
-from preview_walk.preview.zmp_mpc import zmp_ahead
+from preview_walk.preview.least_input import outputs_ahead
 from preview_walk.types import Array
 
 PERIOD = 4
@@ -57,7 +57,8 @@ class MpcGenerator:
         self._omega = (GRAVITY / height) ** 0.5
         plant = cart_table(height, PERIOD * PLANNING_DT)
         self._lever = -float(plant.C[0, 2])
-        self._free, self._forced = zmp_ahead(plant.A, plant.B, plant.C, SAMPLES)
+        ahead = outputs_ahead(plant.A, plant.B, plant.C, plant.D, SAMPLES)
+        self._free, self._forced = ahead.free[:, 0], ahead.forced[:, 0, :, 0]
 
     def rejoin(self, com: Array, dcm: Array, zmp: Array) -> MpcState:
         """Return a state with this CoM, DCM and ZMP, each (2,) in m."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.support import Sole, support_polygon
 from preview_walk.pattern.zmp_reference import ZMP_MARGIN
-from preview_walk.preview.zmp_mpc import sides
+from preview_walk.preview.half_planes import sides
 from preview_walk.types import FEET, Array
 
 

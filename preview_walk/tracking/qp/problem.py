@@ -142,7 +142,7 @@ class TickProblem:
         dynamics: Dynamics,
         normal_limit: Mapping[Foot, float],
         shares: Sequence[float],
-        sink: Mapping[Foot, float],
+        settle: Mapping[Foot, Array],
     ) -> None:
         """Write the QP of the current state.
 
@@ -150,7 +150,7 @@ class TickProblem:
             dynamics: at this state.
             normal_limit: largest normal force of each contact, N.
             shares: of the load on each contact, in their order.
-            sink: how fast a contact goes down, for those that have left the ground, m/s.
+            settle: twists (6,) of contacts that are not at rest, sole axes, m/s, rad/s.
         """
         self.mass, self.bias = dynamics.mass, dynamics.bias
         for task, jacobian, target, inverse_weight in self._task_rows:
@@ -161,8 +161,8 @@ class TickProblem:
             self.contact_jacobian[span] = terms.jacobian
             wanted = self._contact_target[span]
             np.multiply(terms.velocity, -BRAKE, out=wanted)
-            if foot in sink:
-                wanted[:3] -= BRAKE * sink[foot] * terms.rotation[2]
+            if foot in settle:
+                wanted += BRAKE * settle[foot]
             wanted -= terms.drift
             self._normal_high[k] = max(0.0, normal_limit[foot])
             np.divide(self._wrench_weight[span], shares[k], out=self.wrench_weight[span])

@@ -129,7 +129,7 @@ def test_limits_are_this_law(talos: Robot) -> None:
 
 def test_a_contact_that_sinks_comes_to_its_speed(talos: Robot) -> None:
     body = standing_controller(talos)
-    body.sink["left"] = 0.05
+    body.settle["left"] = np.array((0.0, 0.0, -0.05, 0.0, 0.0, 0.0))
     body.torques(full_load(talos, "right") | {"left": 0.0})
     assert body.solution is not None
     down = body.dynamics.soles["left"].jacobian @ body.solution.acceleration

@@ -1,0 +1,124 @@
+"""Balance: how the CoM is led back, what pushes the robot, and by which other plan it walks on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from preview_walk.controller.feet import Feet
+from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.geometry.support import Sole
+from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
+from preview_walk.robots.robot import Robot
+from preview_walk.stabilizer.com_feedback import (
+    CentroidalState,
+    ComFeedback,
+    FeedbackGains,
+    Support,
+    com_feedback,
+)
+from preview_walk.stabilizer.disturbance import (
+    ROUGH_SMOOTHING_TIME,
+    SMOOTHING_TIME,
+    Disturbance,
+    observe,
+)
+from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
+from preview_walk.stabilizer.situation import Situation
+from preview_walk.stabilizer.step_limits import step_limits
+from preview_walk.tracking.dynamics import Dynamics
+from preview_walk.tracking.gains import TrackingGains
+from preview_walk.types import Array, Foot
+
+LEAN = 0.1
+"""How far beyond the soles (m per m of leg) the feedback may ask for the ZMP: what the soles cannot
+give, trunk and arms do by their angular momentum."""
+
+
+class Balance:
+    """Opposes errors and pushes, and remembers what it needs to go on.
+
+    Attributes:
+        disturbance: what pushes the DCM, as observed.
+    """
+
+    def __init__(self, robot: Robot, omega: float, gains: TrackingGains, blind: bool) -> None:
+        """Begin with a robot that nothing pushes.
+
+        Args:
+            robot: whose it is.
+            omega: natural frequency of the pendulum, 1/s.
+            gains: of the feedback.
+            blind: whether the ground is not known.
+        """
+        self._robot = robot
+        lean = LEAN * robot.leg_length
+        self._reach = Sole(robot.sole.half_length + lean, robot.sole.half_width + lean)
+        self._rates = FeedbackGains(omega, gains.dcm, gains.height)
+        self._lag = ROUGH_SMOOTHING_TIME if blind else SMOOTHING_TIME
+        self._limits = step_limits(robot.leg_length, robot.step_width, robot.sole, omega)
+        self.forget()
+
+    def forget(self) -> None:
+        """Know nothing of what was before."""
+        self.disturbance = Disturbance()
+        self._memory = RecoveryMemory()
+
+    def feedback(
+        self, state: CentroidalState, reference: ComReference, standing: Sequence[Array]
+    ) -> ComFeedback:
+        """Return what leads the CoM back to its reference.
+
+        Args:
+            state: the measured motion of the CoM.
+            reference: of the CoM now.
+            standing: measured poses (4, 4) of the soles in contact, world, m.
+        """
+        support = Support(standing, self._robot.sole, self._reach)
+        return com_feedback(state, reference, self.disturbance.rate, support, self._rates)
+
+    def observe(self, t: float, dynamics: Dynamics, zmp: Array) -> None:
+        """Observe what pushes the robot.
+
+        Args:
+            t: now, s.
+            dynamics: at the measured state.
+            zmp: (2,) the point that drove the DCM since the last time, world, m.
+        """
+        omega = self._rates.omega
+        dcm = CentroidalState(dynamics.com, dynamics.com_velocity).dcm(omega)
+        self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, self._lag)
+
+    def answer(
+        self, t: float, pattern: WalkingPattern, feet: Feet, dynamics: Dynamics
+    ) -> FootstepPlan | None:
+        """Return the plan by which the robot keeps its balance; None if it does by this one.
+
+        Args:
+            t: now, s, as `observe` was told.
+            pattern: of the walk.
+            feet: as they are.
+            dynamics: at the measured state.
+        """
+        pushed, swing = self.disturbance, _free_swing(t, pattern.plan, feet, dynamics)
+        situation = Situation(t, pattern.plan, pushed.dcm, pushed.rate, pattern.planned_dcm, swing)
+        decision = recover(situation, self._memory, self._limits)
+        self._memory = decision.memory
+        return decision.plan
+
+    def landed(self, t: float, plan: FootstepPlan, foot: Foot, pose: Array) -> FootstepPlan | None:
+        """Return the plan in which a foot that touches the ground early has landed there.
+
+        None where the plan holds; arguments as of `early_landing`.
+        """
+        return early_landing(plan, t, foot, pose, self._memory)
+
+
+def _free_swing(
+    t: float, plan: FootstepPlan, feet: Feet, dynamics: Dynamics
+) -> tuple[Array, Array] | None:
+    """Return position and velocity (3,), world, of the sole that swings freely, or None."""
+    step = plan.swing_at(t)
+    if step is None or feet.states[step.foot].contact:
+        return None
+    sole = dynamics.soles[step.foot]
+    return sole.position, sole.rotation @ sole.velocity[:3]
