@@ -27,6 +27,7 @@ class Airborne:
     def __init__(self, robot: Robot) -> None:
         """Begin on the ground."""
         self._robot = robot
+        self._gravity = robot.gravity
         self._weight = robot.mass * robot.gravity
         self.lift = Lift()
         self.twist: Twist | None = None
@@ -45,16 +46,17 @@ class Airborne:
         dynamics, planned = body.dynamics, 0.0
         if body.solution is not None:
             planned = sum(body.solution.wrench.tolist()[2::6]) / self._weight
-        now = Rise(t, float(dynamics.com_velocity[2]), load, planned)
-        self.lift = observe_lift(self.lift, now, self._robot.gravity)
-        if self.lift.lifted:
+        now = Rise(t, dynamics.com_velocity.item(2), load, planned)
+        self.lift = observe_lift(self.lift, now, self._gravity)
+        lifted = self.lift.lifted
+        if lifted:
             momentum = dynamics.momentum_jacobian @ dynamics.v
             self.twist = observe_twist(self.twist, t, momentum)
         else:
             self.twist = None
         # How high the soles are matters only where they feel nothing.
         clearance = _clearance(t, dynamics, plan) if load <= UNFELT else 0.0
-        self.flight = feel(self.flight, t, load, clearance, self.lift.lifted)
+        self.flight = feel(self.flight, t, load, clearance, lifted)
 
     @property
     def borne(self) -> tuple[float, Array] | None:
@@ -87,7 +89,7 @@ class Airborne:
             standing = stand_on(plan, t, held)
         if self.landing is None or self.landing.lifted != lifted:
             self.landing = Landing.begin(t, dynamics, lifted)
-        fall = (1.0 - self.lift.share if lifted else 1.0) * self._robot.gravity
+        fall = (1.0 - self.lift.share if lifted else 1.0) * self._gravity
         return standing, self.landing.targets(t, state, held, fall)
 
     def land(self, t: float, plan: FootstepPlan, dynamics: Dynamics) -> FootstepPlan | None:

@@ -50,12 +50,12 @@ class Balance:
             gains: of the feedback.
             blind: whether the ground is not known.
         """
-        self._robot = robot
-        lean = LEAN * robot.leg_length
-        self._reach = Sole(robot.sole.half_length + lean, robot.sole.half_width + lean)
+        lean, sole = LEAN * robot.leg_length, robot.sole
+        self._sole = sole
+        self._reach = Sole(sole.half_length + lean, sole.half_width + lean)
         self._rates = FeedbackGains(omega, gains.dcm, gains.height)
         self._lag = ROUGH_SMOOTHING_TIME if blind else SMOOTHING_TIME
-        self._limits = step_limits(robot.leg_length, robot.step_width, robot.sole, omega)
+        self._limits = step_limits(robot.leg_length, robot.step_width, sole, omega)
         self.forget()
 
     def forget(self) -> None:
@@ -73,7 +73,7 @@ class Balance:
             reference: of the CoM now.
             standing: measured poses (4, 4) of the soles in contact, world, m.
         """
-        support = Support(standing, self._robot.sole, self._reach)
+        support = Support(standing, self._sole, self._reach)
         return com_feedback(state, reference, self.disturbance.rate, support, self._rates)
 
     def observe(self, t: float, dynamics: Dynamics, zmp: Array) -> None:

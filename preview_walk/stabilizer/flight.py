@@ -6,8 +6,9 @@ below it wherever the robot comes down, and there a robot can come to rest on bo
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
+from typing import NamedTuple
 
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import Heading, compose, midfeet, pose_at, relative, rpy_of
@@ -32,8 +33,7 @@ CATCH = 3.0
 stand."""
 
 
-@dataclass(frozen=True)
-class Flight:
+class Flight(NamedTuple):
     """Whether the robot flies; at first it stands.
 
     Attributes:

@@ -9,6 +9,7 @@ more: where the sensors are dead nothing lifts the robot.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,9 +23,8 @@ RELEASED = 0.5
 """And no longer below this share."""
 
 
-@dataclass(frozen=True, eq=False)
-class Rise:
-    """What the lift observer looks at in one instant: plain numbers, as it looks at every tick.
+class Rise(NamedTuple):
+    """What the lift observer looks at in one instant: numbers alone, as it does so every tick.
 
     Attributes:
         t: when, s.
@@ -39,8 +39,7 @@ class Rise:
     planned: float
 
 
-@dataclass(frozen=True, eq=False)
-class Lift:
+class Lift(NamedTuple):
     """The observer's estimate and what it needs to go on; the first one knows nothing.
 
     Attributes:
@@ -67,7 +66,8 @@ def observe_lift(before: Lift, now: Rise, gravity: float) -> Lift:
         return Lift(last=now)
     elapsed = now.t - last.t
     acceleration = (now.velocity - last.velocity) / elapsed
-    share = acceleration / gravity + 1.0 - max(now.planned, 0.5 * (now.load + last.load))
+    carried = max(now.planned, 0.5 * (now.load + last.load))
+    share = acceleration / gravity + 1.0 - carried
     follow = 1.0 / (1.0 + SMOOTHING_TIME / elapsed)
     share = before.share + follow * (share - before.share)
     return Lift(share, share > (RELEASED if before.lifted else LIFTED), now)
