@@ -8,7 +8,7 @@ import numpy as np
 
 from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.feeling import CAREFUL, CONFORM_TIME, conforming, felt_planes
-from preview_walk.controller.feet import Feet, FootState
+from preview_walk.controller.feet import DEEP_SEARCH, SEARCH, Feet, FootState
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
@@ -126,7 +126,8 @@ class Walker:
             leg_geometry(robot), robot.sole, momentum_model(robot), self.swing_height
         )
         self.pattern = WalkingPattern(plan, com, model, com_generator)
-        self.feet = Feet(plan, self.weight, self.swing_height)
+        search = DEEP_SEARCH if blind else SEARCH
+        self.feet = Feet(plan, self.weight, self.swing_height, search)
         self.disturbance = Disturbance()
         self.reference: ComReference = self.pattern.at(plan.start)
         self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
@@ -239,7 +240,7 @@ class Walker:
             self.pattern.planned_dcm,
             self._free_swing(t),
         )
-        if self.flight.flies:
+        if self.flight.flies or (self.blind and self.feet.searching):
             plan = waiting(self.plan, t)
             if plan is not None:
                 self.follow(plan)
