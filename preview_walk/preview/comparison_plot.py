@@ -12,9 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
-from preview_walk.preview.checks import require_type, shown
+from preview_walk.preview.checks import require_type
 from preview_walk.preview.compare import Comparison
 from preview_walk.preview.limits import input_limits
 from preview_walk.types import Array

@@ -75,20 +75,6 @@ def zmp_mpc(
     return ComTrajectory(dt, *(np.ascontiguousarray(rows[:, i]) for i in range(5)))
 
 
-def _polygons(supports: Sequence[ArrayLike]) -> list[ArrayLike]:
-    """Return the support polygons that somebody gives, unread; at least one."""
-    try:
-        polygons = list(supports)
-    except TypeError:
-        raise InvalidInput(
-            f"expected supports to be polygons, one for each sample, got {shown(supports)}.",
-            argument="supports",
-        ) from None
-    if not polygons:
-        raise InvalidInput("expected at least one support polygon, got none.", argument="supports")
-    return polygons
-
-
 def _horizon(preview_time: float, dt: float) -> int:
     if not preview_time / dt <= MAX_HORIZON:
         raise InvalidInput(

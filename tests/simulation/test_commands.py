@@ -14,8 +14,10 @@ import preview_walk as pw
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.velocity import follow_velocity
+from preview_walk.geometry.poses import pose_at
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.commands import FORGET, VelocityCommands
 
 
 @pytest.fixture(scope="module")
@@ -173,3 +175,16 @@ def test_a_walk_for_ever_needs_an_end(talos: Robot) -> None:
         ),
     ):
         walk.run()
+
+
+def test_a_walk_for_ever_keeps_a_short_plan() -> None:
+    """Two minutes of planning alone: what is older than a few seconds is forgotten."""
+    limits = pw.GaitLimits()
+    commands = VelocityCommands(limits, 0.002)
+    plan = FootstepPlan.standing(pose_at(0.0, 0.1, 0.0), pose_at(0.0, -0.1, 0.0))
+    commands.give(0.0, (0.3, 0.0, 0.1))
+    for tick in range(1200):
+        t = 0.1 * tick
+        plan = commands.plan(t, plan) or plan
+        assert len(plan.steps) < 15
+    assert t - 2.0 * FORGET < plan.start < t
