@@ -124,6 +124,8 @@ def test_limits_are_this_law(talos: Robot) -> None:
     braked = LIMIT_RATE**2 * (talos.q_upper - q[7:]) - 2.0 * LIMIT_RATE * v[6:]
     slowest = LIMIT_RATE * (-talos.v_limit - v[6:])
     np.testing.assert_allclose(p.limits[1, p.n :], np.clip(braked, slowest, fastest))
+    caught = LIMIT_RATE**2 * (talos.q_lower - q[7:]) - 2.0 * LIMIT_RATE * v[6:]
+    np.testing.assert_allclose(p.limits[0, p.n :], np.clip(caught, slowest, fastest))
     np.testing.assert_array_equal(p.limits[:, : p.n], [-talos.effort, talos.effort])
 
 
