@@ -17,6 +17,7 @@ PLAN = pw.FootstepPlanner(0.25, 0.17, 0.9).generate_footsteps(4)
 def test_a_flight_begins_after_a_while_and_ends_with_the_first_touch() -> None:
     flight = feel(Flight(), 0.0, 0.0)  # the first sense of a run knows nothing yet
     assert not flight.flies
+    assert feel(flight, 1.01 * FLIGHT_TIME, 0.0).flies  # though no ground was ever felt
     flight = feel(flight, 1.0, 1.0)
     assert not feel(flight, 1.0 + 0.99 * FLIGHT_TIME, 0.0).flies
     flight = feel(flight, 1.0 + 1.01 * FLIGHT_TIME, 0.5 * UNFELT)
