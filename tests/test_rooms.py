@@ -85,6 +85,16 @@ def test_every_room_says_what_it_is_for() -> None:
         assert len(text) > 60, path
 
 
+def test_every_room_says_what_it_imports() -> None:
+    """By name, or that it imports everything below it."""
+    for room in order():
+        path = PACKAGE / room / "__init__.py"
+        text = ast.get_docstring(ast.parse(path.read_text())) or "" if path.exists() else ""
+        others = {room_of(o) for m, others in GRAPH.items() if room_of(m) == room for o in others}
+        for other in others - {room, *SERVICES, *FACES}:
+            assert not path.exists() or "everything below it" in text or f"{other}" in text, room
+
+
 FILES = [
     path
     for folder in ("preview_walk", "benchmarks", "examples", "docs", "tests")
