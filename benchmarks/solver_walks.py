@@ -1,9 +1,9 @@
 """What a whole control tick costs by solver, in a gentle, a fast and a pushed walk of TALOS.
 
 Each walk is run with each solver in turn, several rounds; a tick's time is the least of its rounds,
-for the same tick does the same work in each. Times are this thread's processor time, which other
-programs on the machine hardly move, from the state sensed to the torques handed over: the control
-tick and its row of the record. The process pins itself to one core.
+for the same tick does the same work in each. Times are those of the record, `tick_time`: other
+programs on the machine add to the longest of them, the more rounds the less. The process pins
+itself to one core.
 A last round compares the torques with those of an exact solver (the whole QP by daqp, tolerances
 1e-10) at every tenth tick.
 
@@ -15,12 +15,10 @@ from __future__ import annotations
 import argparse
 import gc
 import os
-from collections.abc import Sequence
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from dataclasses import dataclass
-from time import thread_time
 
 import numpy as np
 from tick_solvers import exact
@@ -61,36 +59,17 @@ class Compared:
         return solution
 
 
-class TimedWorld(pw.World):
-    """The simulated world, with the time (s) from each sense to the step that follows."""
-
-    def __init__(self, robot: pw.Robot, pushes: Sequence[pw.Push] = ()) -> None:
-        super().__init__(robot, pushes=pushes)
-        self.times: list[float] = []
-        self._sensed = 0.0
-
-    def sense(self) -> None:
-        """Read the state, and begin to count."""
-        super().sense()
-        self._sensed = thread_time()
-
-    def step(self, torques: pw.Array, steps: int) -> None:
-        """Stop counting, and let the physics go on."""
-        self.times.append(thread_time() - self._sensed)
-        super().step(torques, steps)
-
-
 def make(robot: pw.Robot, name: str, solver: str) -> tuple[pw.Walk, float | None]:
     """Return a walk that is about to begin, and when to stop it (s)."""
     planner = pw.FootstepPlanner(0.25, robot.step_width, 0.9)
     if name == "default":
         plan = planner.generate_footsteps(20, ramp=2)
-        return pw.Walk(TimedWorld(robot), plan, solver=solver), None
+        return pw.Walk(robot, plan, solver=solver), None
     if name == "pushed":
         push = pw.Push(4.1, 0.1, (1000.0, 0.0, 0.0))
         plan = planner.generate_footsteps(12, ramp=2)
-        return pw.Walk(TimedWorld(robot, [push]), plan, solver=solver), 9.0
-    walk = pw.Walk.standing(TimedWorld(robot), solver=solver)
+        return pw.Walk(robot, plan, pushes=[push], solver=solver), 9.0
+    walk = pw.Walk.standing(robot, solver=solver)
     walk.command(1.0, 0.0, 0.0)
     return walk, 12.0
 
@@ -103,8 +82,8 @@ def timed(robot: pw.Robot, name: str, solver: str) -> tuple[pw.Array, pw.Record]
     walk.run(until=until)
     if walk.fallen:
         raise SystemExit(f"fell with {solver}: {name}")
-    assert isinstance(walk.plant, TimedWorld)
-    return np.array(walk.plant.times), walk.record()
+    record = walk.record()
+    return record.tick_time, record
 
 
 def torque_error(robot: pw.Robot, name: str, solver: str) -> float:
