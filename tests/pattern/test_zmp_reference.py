@@ -153,7 +153,7 @@ def test_a_stand_is_rested_at_midfeet():
     shift = 0.5 * plan.weight_shift
     for t, stood in ((pause[0] + shift, "left"), (pause[1] - shift, "right")):
         sole = plan.sole(stood, t)[:2, 3]
-        assert np.allclose(ref.at(t), 0.5 * (sole + (0.6, 0.0)))
+        assert np.allclose(ref.at(t), 0.5 * (sole + np.array((0.6, 0.0))))
 
 
 def test_replacing_the_future_keeps_the_past():
