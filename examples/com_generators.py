@@ -44,7 +44,7 @@ def main() -> None:
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.9)
-    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (20, 6))
+    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (12, 6))
     push = pw.Push(short.steps[3].lift + 0.2, DURATION, (FORCE, 0.0, 0.0))
     figure = Figure(figsize=(11, 9), layout="constrained")
     sideways, forward, pushed = figure.subplots(3, 1)
