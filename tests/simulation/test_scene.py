@@ -203,3 +203,20 @@ def test_the_ground_pushes_up_whichever_geom_mujoco_names_first(spec: mujoco.MjS
     assert (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_BOX)) in kinds
     for wrench in scene.wrench.values():
         assert wrench[2] > 10.0
+
+
+def test_a_servo_gives_the_torque_asked_wherever_its_joint_is_and_moves(
+    spec: mujoco.MjSpec,
+) -> None:
+    for motor in spec.actuators:
+        limit = tuple(motor.ctrlrange)
+        motor.set_to_position(kp=150.0, kv=4.0)
+        motor.forcerange, motor.forcelimited = limit, 1
+    scene = scene_of(spec)
+    scene.place(scene.robot.posture, 0.0)
+    joints = scene.model.actuator_trnid[:, 0]
+    dofs = scene.model.jnt_dofadr[joints]
+    scene.data.qvel[dofs] = np.linspace(-1.0, 1.0, len(dofs))
+    torques = np.linspace(-5.0, 5.0, len(dofs))
+    scene.step(torques, 1)
+    assert scene.data.qfrc_actuator[dofs] == pytest.approx(torques)
