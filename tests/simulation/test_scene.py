@@ -214,8 +214,7 @@ def test_a_servo_gives_the_torque_asked_wherever_its_joint_is_and_moves(
         motor.forcerange, motor.forcelimited = limit, 1
     scene = scene_of(spec)
     scene.place(scene.robot.posture, 0.0)
-    joints = scene.model.actuator_trnid[:, 0]
-    dofs = scene.model.jnt_dofadr[joints]
+    dofs = [int(scene.model.joint(name).dofadr[0]) for name in scene.robot.joint_names]
     scene.data.qvel[dofs] = np.linspace(-1.0, 1.0, len(dofs))
     torques = np.linspace(-5.0, 5.0, len(dofs))
     scene.step(torques, 1)
