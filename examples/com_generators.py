@@ -1,6 +1,7 @@
 """The same walks by three CoM generators: preview control, Wieber's ZMP MPC, the plan's DCM.
 
-TALOS walks 12 steps of the default gait, by command with a turn, and through a push of 50 N·s forward.
+TALOS walks 12 steps of the default gait, by command with a turn, and through a push of 50 N·s
+forward.
 
 python examples/com_generators.py --out com_generators.png
 """
