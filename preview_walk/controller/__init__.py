@@ -1,6 +1,7 @@
 """The walker: one control tick from measured state and live plan to joint torques.
 
 It puts `pattern`, `stabilizer` and `tracking` together for a robot, and is the one place where a
-plan is replaced; it imports these, `robots`, `footsteps` and `geometry`, and knows no simulator.
-Start with `walker`; `feet` holds which foot stands, `robot_limits` what the legs can do.
+plan is replaced; it imports these, `robots`, `footsteps`, `terrain` and `geometry`, and knows no
+simulator. Start with `walker`; `feet` holds which foot stands, `feeling` what soles tell of ground
+that nobody sees, `robot_limits` what the legs can do.
 """

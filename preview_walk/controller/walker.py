@@ -104,10 +104,9 @@ class Walker:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
-        self.ground = ground
-        self.blind = blind
-        self.plane = Plane.through(plan[0].pos, plan[0].pose[:3, 2])
+        self.ground, self.blind = ground, blind
         instance_of(plan, FootstepPlan, "plan")
+        self.plane = Plane.through(plan[0].pos, plan[0].pose[:3, 2])
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
         self.body = WholeBodyController(robot, self.gains, friction, solver)
@@ -231,7 +230,7 @@ class Walker:
         omega = self.pattern.omega
         dcm = state.dcm(omega)
         lag = ROUGH_SMOOTHING_TIME if self.blind else SMOOTHING_TIME
-        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega, lag)
+        self.disturbance = observe(self.disturbance, t, dcm, self.feedback.sole_zmp, omega, lag=lag)
         situation = Situation(
             t,
             self.plan,
