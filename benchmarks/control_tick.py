@@ -60,32 +60,28 @@ class Tick:
         body.torso.rotation, body.torso.velocity = self.torso
 
 
+def tick_of(walk: Walk) -> Tick:
+    """Return the tick that a walk has just done."""
+    walker, body = walk.walker, walk.walker.body
+    return Tick(
+        body.dynamics.q.copy(),
+        body.dynamics.v.copy(),
+        walker.feet.normal_limits(walk.time, walk.plan),
+        body.com.acceleration.copy(),
+        {
+            foot: (task.pose.copy(), task.velocity.copy(), task.acceleration.copy())
+            for foot, task in body.foot_tasks.items()
+        },
+        (body.torso.rotation.copy(), body.torso.velocity.copy()),
+    )
+
+
 def record(robot: Robot, steps: int) -> list[Tick]:
     """Walk and return every tick."""
     length = STEP * robot.leg_length
     plan = FootstepPlanner(length, robot.step_width, 0.9).generate_footsteps(steps)
-    walk = Walk(robot, plan, friction=FRICTION)
-    body = walk.walker.body
     ticks: list[Tick] = []
-    solve = body.torques
-
-    def torques(limit: dict[Foot, float]) -> Array:
-        ticks.append(
-            Tick(
-                body.dynamics.q.copy(),
-                body.dynamics.v.copy(),
-                dict(limit),
-                body.com.acceleration.copy(),
-                {
-                    f: (t.pose.copy(), t.velocity.copy(), t.acceleration.copy())
-                    for f, t in body.foot_tasks.items()
-                },
-                (body.torso.rotation.copy(), body.torso.velocity.copy()),
-            )
-        )
-        return solve(limit)
-
-    body.torques = torques  # type: ignore[method-assign, assignment]
+    walk = Walk(robot, plan, friction=FRICTION, on_tick=lambda walk: ticks.append(tick_of(walk)))
     walk.run()
     if walk.fallen:
         raise SystemExit(f"{robot.name} fell: nothing to measure")
@@ -148,7 +144,20 @@ def main() -> None:
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
     talos = load_robot("talos")
-    ticks = record(talos, options.steps)
+    race(record(talos, options.steps), talos)
+    print("\ncost against the number of joints (median of a walk of 2 steps, us)\n")
+    for name in ROBOTS:
+        try:
+            robot = load_robot(name)
+            spent = Replay(robot, record(robot, 2)).ours()[0]
+        except (PreviewWalkError, SystemExit) as why:
+            print(f"{name:12} not measured: {why}")
+            continue
+        print(f"{name:12}{robot.pin.nv - 6:4} joints {1e6 * np.median(spent):8.0f}")
+
+
+def race(ticks: list[Tick], talos: Robot) -> None:
+    """Print what TALOS's ticks cost, part by part and with each solver."""
     replay = Replay(talos, ticks)
     times, parts, torques = replay.ours()
     times, parts, torques = replay.ours()  # again: workspaces exist, as in steady walking
@@ -185,16 +194,6 @@ def main() -> None:
     alike = replay.ours([ticks[len(ticks) // 2]] * (len(times) // 2))[0]
     for name, spent in (("steady walking", times[steady]), ("one tick repeated", alike)):
         print(f"p99 / median, {name}: {np.percentile(spent, 99) / np.median(spent):.2f}")
-
-    print("\ncost against the number of joints (median of a walk of 2 steps, us)\n")
-    for name in ROBOTS:
-        try:
-            robot = load_robot(name)
-            spent = Replay(robot, record(robot, 2)).ours()[0]
-        except (PreviewWalkError, SystemExit) as why:
-            print(f"{name:12} not measured: {why}")
-            continue
-        print(f"{name:12}{robot.pin.nv - 6:4} joints {1e6 * np.median(spent):8.0f}")
 
 
 if __name__ == "__main__":

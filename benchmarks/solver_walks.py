@@ -1,8 +1,9 @@
 """What a whole control tick costs by solver, in a gentle, a fast and a pushed walk of TALOS.
 
 Each walk is run with each solver in turn, several rounds; a tick's time is the least of its rounds,
-for the same tick does the same work in each. Times are this thread's processor time of
-`Walker.tick`, which other programs on the machine hardly move; the process pins itself to one core.
+for the same tick does the same work in each. Times are those of the record, `tick_time`: other
+programs on the machine add to the longest of them, the more rounds the less. The process pins
+itself to one core.
 A last round compares the torques with those of an exact solver (the whole QP by daqp, tolerances
 1e-10) at every tenth tick.
 
@@ -18,7 +19,6 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from dataclasses import dataclass
-from time import thread_time
 
 import numpy as np
 from tick_solvers import exact
@@ -63,7 +63,8 @@ def make(robot: pw.Robot, name: str, solver: str) -> tuple[pw.Walk, float | None
     """Return a walk that is about to begin, and when to stop it (s)."""
     planner = pw.FootstepPlanner(0.25, robot.step_width, 0.9)
     if name == "default":
-        return pw.Walk(robot, planner.generate_footsteps(20, ramp=2), solver=solver), None
+        plan = planner.generate_footsteps(20, ramp=2)
+        return pw.Walk(robot, plan, solver=solver), None
     if name == "pushed":
         push = pw.Push(4.1, 0.1, (1000.0, 0.0, 0.0))
         plan = planner.generate_footsteps(12, ramp=2)
@@ -76,21 +77,13 @@ def make(robot: pw.Robot, name: str, solver: str) -> tuple[pw.Walk, float | None
 def timed(robot: pw.Robot, name: str, solver: str) -> tuple[pw.Array, pw.Record]:
     """Return the time (s) of each tick of a walk, and its record."""
     walk, until = make(robot, name, solver)
-    tick, times = walk.walker.tick, []
-
-    def timed_tick(*state: object) -> pw.Array:
-        start = thread_time()
-        torques = tick(*state)  # type: ignore[arg-type]
-        times.append(thread_time() - start)
-        return torques
-
-    walk.walker.tick = timed_tick  # type: ignore[method-assign, assignment]
     gc.collect()
     gc.freeze()
     walk.run(until=until)
     if walk.fallen:
         raise SystemExit(f"fell with {solver}: {name}")
-    return np.array(times), walk.record()
+    record = walk.record()
+    return record.tick_time, record
 
 
 def torque_error(robot: pw.Robot, name: str, solver: str) -> float:
@@ -111,7 +104,7 @@ def main() -> None:
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
     robot, solvers = pw.load_robot("talos"), options.solvers.split(",")
     for name, words in WALKS.items():
-        print(f"\n{name}: {words}; us of processor time")
+        print(f"\n{name}: {words}; us")
         print(f"{'':10}{'median':>8}{'p99':>8}{'max':>8}{'> 1 ms':>9}{'itself':>9}{'N·m':>10}")
         times: dict[str, list[pw.Array]] = {solver: [] for solver in solvers}
         records: dict[str, pw.Record] = {}

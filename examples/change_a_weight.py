@@ -21,7 +21,7 @@ def main() -> None:
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.8)
-    plan = planner.generate_footsteps(8, ramp=2)
+    plan = planner.generate_footsteps(5, ramp=2)
     default = pw.TrackingGains()
 
     figure = Figure(figsize=(11, 5), layout="constrained")

@@ -1,6 +1,7 @@
 """The same walks by three CoM generators: preview control, Wieber's ZMP MPC, the plan's DCM.
 
-TALOS walks the default gait, by command with a turn, and through a push of 50 N·s forward.
+TALOS walks 12 steps of the default gait, by command with a turn, and through a push of 50 N·s
+forward.
 
 python examples/com_generators.py --out com_generators.png
 """
@@ -44,7 +45,7 @@ def main() -> None:
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.9)
-    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (20, 6))
+    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (12, 6))
     push = pw.Push(short.steps[3].lift + 0.2, DURATION, (FORCE, 0.0, 0.0))
     figure = Figure(figsize=(11, 9), layout="constrained")
     sideways, forward, pushed = figure.subplots(3, 1)

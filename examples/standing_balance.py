@@ -35,6 +35,7 @@ MOVES = (
     ("put down", 1.0, (0.0, 0.5, 0.0), 0.0),
     ("stand again", 2.0, (0.0, 0.0, 0.0), 0.0),
 )
+MARKS = np.cumsum([0.0, *(duration for _, duration, *_ in MOVES)])  # s, when each begins
 
 
 def moved(start: Array, end: Array, share: float, duration: float) -> Array:
@@ -43,14 +44,12 @@ def moved(start: Array, end: Array, share: float, duration: float) -> Array:
     return np.array([start + way * (end - start), speed * (end - start), pull * (end - start)])
 
 
-def main() -> None:
-    """Do the moves, print how well, draw the picture."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--robot", default="humanoid-walker", help="name or path of the robot")
-    parser.add_argument("--out", default="standing_balance.png", help="the picture to write")
-    options = parser.parse_args()
+def balance(robot: pw.Robot) -> Array:
+    """Do the moves in the simulated world; return a row per tick.
 
-    robot = pw.load_robot(options.robot)
+    CoM and where it should be (3 + 3), the right sole's height and where it should be, the normal
+    force under the left and the right sole, the largest torque over its limit.
+    """
     world = World(robot, friction=FRICTION)
     world.place(robot.posture, 0.0)
     body = WholeBodyController(robot, TrackingGains(), FRICTION)
@@ -59,7 +58,7 @@ def main() -> None:
     ground = body.dynamics.soles["right"].position.copy()
     scale = np.array((robot.step_width, robot.step_width, robot.leg_length, robot.leg_length))
 
-    rows, marks, before = [], [0.0], np.zeros(4)
+    rows, before = [], np.zeros(4)
     for _, duration, com, lift in MOVES:
         target = scale * (*com, lift)
         for k in range(round(duration / TICK)):
@@ -81,18 +80,23 @@ def main() -> None:
             rows.append((*dynamics.com, *(home + goal[:3]), sole[2], goal[3], *felt, load))
             world.step(torques, round(1000 * TICK))
         before = target
-        marks.append(marks[-1] + duration)
+    return np.array(rows)
 
-    table = np.array(rows)
-    time = TICK * np.arange(len(table))
+
+def report(table: Array, time: Array) -> None:
+    """Print how well each move went."""
     print("move           CoM error, at most (mm)   right sole's load   torque / limit")
-    for (name, *_), begin, end in zip(MOVES, marks, marks[1:], strict=False):
+    for (name, *_), begin, end in zip(MOVES, MARKS, MARKS[1:], strict=False):
         part = table[(time >= begin) & (time < end)]
         worst = 1e3 * np.abs(part[:, :3] - part[:, 3:6]).max(axis=0)
         share = abs(part[-1, 9]) / part[-1, 8:10].sum()
         errors = "".join(f"{value:7.1f}" for value in worst)
         print(f"{name:14s} {errors}   {100 * share:16.0f} % {part[:, 10].max():16.2f}")
 
+
+def draw(table: Array, time: Array, robot: pw.Robot, path: str) -> None:
+    """Draw CoM, right sole and loads over time."""
+    home = (0.0, 0.0, robot.com_height)
     figure, axes = plt.subplots(3, 1, figsize=(11, 9), layout="constrained", sharex=True)
     for k, colour in enumerate(("tab:blue", "tab:orange", "tab:green")):
         axes[0].plot(time, 1e3 * (table[:, k] - home[k]), color=colour, label="xyz"[k])
@@ -105,12 +109,25 @@ def main() -> None:
     axes[2].set(ylabel="normal force (N)", xlabel="time (s)")
     for ax in axes:
         ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-        for begin, (name, *_) in zip(marks, MOVES, strict=False):
+        for begin, (name, *_) in zip(MARKS, MOVES, strict=False):
             ax.axvline(begin, color="grey", linewidth=0.5)
             if ax is axes[0]:
                 place = (begin + 0.05, 1.0)
                 ax.annotate(name, place, xycoords=("data", "axes fraction"), fontsize=8, va="top")
-    figure.savefig(options.out, dpi=120)
+    figure.savefig(path, dpi=120)
+
+
+def main() -> None:
+    """Do the moves, print how well, draw the picture."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--robot", default="humanoid-walker", help="name or path of the robot")
+    parser.add_argument("--out", default="standing_balance.png", help="the picture to write")
+    options = parser.parse_args()
+    robot = pw.load_robot(options.robot)
+    table = balance(robot)
+    time = TICK * np.arange(len(table))
+    report(table, time)
+    draw(table, time, robot, options.out)
     print(f"wrote {options.out}")
 
 

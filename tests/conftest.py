@@ -17,6 +17,17 @@ settings.register_profile("deterministic", derandomize=True, deadline=None)
 settings.load_profile("deterministic")
 
 
+WALKED_ONCE = ("default_walk", "short_walk", "lab", "copied", "gentle", "fast", "walked")
+"""Fixtures that walk for seconds, and are shared: who looks at one is run by one process."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        for name in WALKED_ONCE:
+            if name in getattr(item, "fixturenames", ()):
+                item.add_marker(pytest.mark.xdist_group(name))
+
+
 @pytest.fixture(scope="session")
 def talos() -> Robot:
     return pw.load_robot("talos")

@@ -66,6 +66,18 @@ def test_a_page_shows_its_example_and_what_it_prints(page: object, tmp_path: Pat
     assert again == pytest.approx(numbers, rel=5e-3, abs=1e-6)
 
 
+PAGES = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_file_that_a_document_names_is_there(page: Path) -> None:
+    """Names with a folder: from the root, or as in the architecture from the package."""
+    named = set(re.findall(r"`(?:python |pytest )?([\w/]+/[\w/]*\w\.\w+)", page.read_text("utf-8")))
+    named = {name for name in named if "NAME" not in name}
+    lost = [n for n in named if not any((ROOT / at / n).exists() for at in ("", "preview_walk"))]
+    assert lost == []
+
+
 def test_every_picture_of_a_page_is_there_and_small() -> None:
     folder = ROOT / "docs" / "preview"
     pages = sorted(folder.glob("*.md"))

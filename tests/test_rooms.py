@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -13,7 +14,10 @@ import preview_walk
 
 PACKAGE = Path(preview_walk.__file__).parent
 ARCHITECTURE = PACKAGE.parent / "docs" / "architecture.md"
-MAX_LINES = 300
+MAX_LINES, MAX_FUNCTION, MAX_ARGUMENTS = 300, 50, 5
+
+MORE_ARGUMENTS = {"pose_at", "PreviewController.__init__"}
+"""Six numbers, no value: the coordinates of a pose, the walking lab's parameters."""
 
 SERVICES = {"arguments", "constants", "errors", "files", "offscreen", "threads", "types"}
 """Files that serve all rooms; they import each other alone."""
@@ -81,6 +85,61 @@ def test_every_room_says_what_it_is_for() -> None:
         assert len(text) > 60, path
 
 
+def test_every_room_says_what_it_imports() -> None:
+    """By name, or that it imports everything below it."""
+    for room in order():
+        path = PACKAGE / room / "__init__.py"
+        text = ast.get_docstring(ast.parse(path.read_text())) or "" if path.exists() else ""
+        others = {room_of(o) for m, others in GRAPH.items() if room_of(m) == room for o in others}
+        for other in others - {room, *SERVICES, *FACES}:
+            assert not path.exists() or "everything below it" in text or f"{other}" in text, room
+
+
+FILES = [
+    path
+    for folder in ("preview_walk", "benchmarks", "examples", "docs", "tests")
+    for path in (PACKAGE.parent / folder).rglob("*.py")
+]
+
+
+def functions(path: Path) -> Iterator[tuple[str, ast.FunctionDef]]:
+    """Yield the functions of a file, those of classes with the class's name."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.FunctionDef):
+                owner = f"{node.name}." if isinstance(node, ast.ClassDef) else ""
+                yield owner + child.name, child
+
+
+def lines_of(function: ast.FunctionDef) -> int:
+    """Return the lines of a function's code; a docstring may be as long as its arguments ask."""
+    first = function.body[0]
+    doc = 0
+    if ast.get_docstring(function) is not None:
+        doc = (first.end_lineno or 0) - first.lineno + 1
+    return (function.end_lineno or 0) - function.lineno + 1 - doc
+
+
 def test_no_file_is_longer_than_can_be_read_at_a_sitting() -> None:
-    lines = {module: len(path.read_text().splitlines()) for module, path in MODULES.items()}
-    assert {module: n for module, n in lines.items() if n > MAX_LINES} == {}
+    lines = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in FILES}
+    assert {path: n for path, n in lines.items() if n > MAX_LINES} == {}
+
+
+def test_no_function_is_longer_than_a_screen() -> None:
+    lines = {(path, name): lines_of(node) for path in FILES for name, node in functions(path)}
+    assert {where: n for where, n in lines.items() if n > MAX_FUNCTION} == {}
+
+
+def test_no_call_needs_more_than_five_arguments_in_order() -> None:
+    """What follows by keyword are options, each named where it is given."""
+    many = {}
+    for path in FILES:
+        if "tests" in path.relative_to(PACKAGE.parent).parts:
+            continue
+        for name, node in functions(path):
+            taken = [a.arg for a in (*node.args.posonlyargs, *node.args.args)]
+            count = len(taken) - (taken[:1] in (["self"], ["cls"]))
+            if count > MAX_ARGUMENTS and name not in MORE_ARGUMENTS:
+                many[path, name] = count
+    assert many == {}

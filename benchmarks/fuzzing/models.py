@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 import preview_walk as pw
 from fuzzing.api import TESTS
 from fuzzing.verdict import ACCEPTED, Verdict, of_error
+from preview_walk import load_robot
 from preview_walk.robots.reading.description import models_folder
 
 NUMBERS = (
@@ -39,14 +40,14 @@ FACTS = {
 @lru_cache(maxsize=1)
 def bases() -> dict[str, str]:
     """Return the texts that are changed, by the ending of their file."""
-    file = TESTS / "robots" / "test_urdf.py"
+    file = TESTS / "robots" / "urdf_text.py"
     spec = spec_from_file_location("urdf_of_the_walker", file)
     assert spec is not None
     assert spec.loader is not None
     writer = module_from_spec(spec)
     spec.loader.exec_module(writer)
     mjcf = (models_folder() / "humanoid-walker.xml").read_text(encoding="utf-8")
-    tree = writer.urdf_of(writer.original())
+    tree = writer.urdf_of(load_robot("humanoid-walker"))
     return {"xml": mjcf, "urdf": ElementTree.tostring(tree, encoding="unicode")}
 
 

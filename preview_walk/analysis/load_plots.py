@@ -38,7 +38,7 @@ def draw_forces(ax: Axes, record: Record) -> None:
         ("left", COM, record.left_force, record.left_force_ref),
         ("right", ZMP, record.right_force, record.right_force_ref),
     ):
-        draw_pair(ax, record.time, force[:, 2], planned[:, 2], colour, foot)
+        draw_pair(ax, record.time, (force[:, 2], planned[:, 2]), colour, foot)
     ax.axhline(record.run.weight, color="0.5", linewidth=0.8, linestyle=":", label="weight")
     mark_fall(ax, record)
     finish(ax, "Contact forces, vertical", "force [N]")

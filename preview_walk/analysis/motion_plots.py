@@ -42,7 +42,7 @@ def draw_axis(ax: Axes, record: Record, axis: int) -> None:
     ):
         measured = from_start(record, points)[:, axis]
         planned = from_start(record, ref)[:, axis]
-        draw_pair(ax, record.time, measured, planned, colour, name)
+        draw_pair(ax, record.time, (measured, planned), colour, name)
     mark_fall(ax, record)
     title, label = (("Forward", "x [m]"), ("Sideways", "y, to the left [m]"))[axis]
     finish(ax, f"{title}: CoM, DCM and ZMP", label)
@@ -78,7 +78,7 @@ def draw_feet(ax: Axes, record: Record) -> None:
     ):
         colour = COM if foot == "left" else ZMP  # stronger than the shading of the same foot
         height, planned_height = (1e3 * (pose[:, 2, 3] - ground) for pose in (measured, planned))
-        draw_pair(ax, record.time, height, planned_height, colour, foot)
+        draw_pair(ax, record.time, (height, planned_height), colour, foot)
         if not isinstance(record.ground, FlatGround):
             under = record.ground.height(measured[:, 0, 3], measured[:, 1, 3]) - ground
             # Where the foot passes over a pit the picture would show nothing but its depth.

@@ -31,8 +31,12 @@ PLANNED: dict[str, Any] = {"linestyle": (0, (4, 2)), "linewidth": 1.0}
 MEASURED: dict[str, Any] = {"linestyle": "-", "linewidth": 1.6}
 
 
-def draw_pair(ax: Axes, x: Array, measured: Array, planned: Array, colour: str, name: str) -> None:
-    """Draw a measured line, and what was planned dashed in a darker shade of its colour."""
+def draw_pair(ax: Axes, x: Array, pair: tuple[Array, Array], colour: str, name: str) -> None:
+    """Draw a measured line, and what was planned dashed in a darker shade of its colour.
+
+    `pair`: measured and planned, over `x`.
+    """
+    measured, planned = pair
     ax.plot(x, measured, color=colour, **MEASURED, label=f"{name} measured")
     ax.plot(x, planned, color=darker(colour), **PLANNED)
 

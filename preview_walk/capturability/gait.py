@@ -173,16 +173,9 @@ class PushGait:
         for index, single in enumerate(singles):
             time += single
             step = self.step(index)
-            side = 1.0 if step[1] > 0.0 else -1.0
-            if kept:
-                reach = Polygon.point(step)
-            else:
-                reach = Polygon.box(
-                    (-self.backward, self.forward),
-                    (side * self.min_width, side * self.max_width),
-                )
-                if index == 0:
-                    reach &= Polygon.disc(place, self.swing_speed * single)
+            reach = Polygon.point(step) if kept else self._reach(step)
+            if index == 0 and not kept:
+                reach &= Polygon.disc(place, self.swing_speed * single)
             last = index == len(singles) - 1
             strides.append(
                 CaptureStep(
@@ -194,6 +187,13 @@ class PushGait:
             )
             time += pause
         return strides
+
+    def _reach(self, step: Array) -> Polygon:
+        """Return where the foot may land that makes the step (2,), relative to the other foot."""
+        side = 1.0 if step[1] > 0.0 else -1.0
+        return Polygon.box(
+            (-self.backward, self.forward), (side * self.min_width, side * self.max_width)
+        )
 
 
 def _unit(name: str) -> str:

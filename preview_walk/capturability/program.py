@@ -149,18 +149,25 @@ def largest_jump(
         refine: improve the weights where the swing's travel binds; otherwise two guesses of them
             are tried, which is a little low in a few directions and several times faster.
     """
-    free = _solve(dcm, direction, sole, strides)
+    jump = _Jump(dcm, direction, sole, strides)
+    free = _solve(jump)
     if free is None or _travels(free, strides):
         return free
     early = replace(free, shares=np.ones(len(strides)))
-    starts = [
-        start
-        for guess in (free, early)
-        if (start := _solve(dcm, direction, sole, strides, guess)) is not None
-    ]
+    starts = [start for guess in (free, early) if (start := _solve(jump, guess)) is not None]
     if refine:
-        starts = [_refined(dcm, direction, sole, strides, start) for start in starts]
+        starts = [_refined(jump, start) for start in starts]
     return max(starts, key=lambda capture: capture.jump, default=None)
+
+
+@dataclass(frozen=True, eq=False)
+class _Jump:
+    """What a programme is about: the arguments of `largest_jump`."""
+
+    dcm: Array
+    direction: Array
+    sole: Sole
+    strides: Sequence[CaptureStep]
 
 
 def _travels(capture: Capture, strides: Sequence[CaptureStep]) -> bool:
@@ -170,15 +177,13 @@ def _travels(capture: Capture, strides: Sequence[CaptureStep]) -> bool:
     return bool(np.all(np.max(ways @ _AROUND.T, axis=1) <= limits + _TOLERANCE))
 
 
-def _refined(
-    dcm: Array, direction: Array, sole: Sole, strides: Sequence[CaptureStep], start: Capture
-) -> Capture:
+def _refined(jump: _Jump, start: Capture) -> Capture:
     """Return a capture no worse than `start`: the weights moved while that pays."""
     best, trust = start, 0.5
     while trust > 0.01:
-        moved = _solve(dcm, direction, sole, strides, best, trust)
+        moved = _solve(jump, best, trust)
         # The weights that the linearised programme likes, now with strides that are exact.
-        exact = _solve(dcm, direction, sole, strides, moved) if moved else None
+        exact = _solve(jump, moved) if moved else None
         if exact is not None and exact.jump > best.jump * (1.0 + 1e-5):
             best = exact
         else:
@@ -186,30 +191,21 @@ def _refined(
     return best
 
 
-def _solve(
-    dcm: Array,
-    direction: Array,
-    sole: Sole,
-    strides: Sequence[CaptureStep],
-    about: Capture | None = None,
-    trust: float = 0.0,
-) -> Capture | None:
+def _solve(jump: _Jump, about: Capture | None = None, trust: float = 0.0) -> Capture | None:
     """Return the solution of the linear programme, or None where it has none.
 
     The unknowns are jump, point (2), then share and q / most (2) of each stride, so that the far
     strides are as well scaled as the near ones.
 
     Args:
-        dcm: (2,) the DCM before the jump (m).
-        direction: (2,) unit vector of the jump.
-        sole: half sizes of the soles.
-        strides: the strides.
+        jump: what is captured.
         about: weights and strides about which the travel is linearised; None ignores it.
         trust: how far the weights may move from those, as a share of their range.
     """
+    sole, strides = jump.sole, jump.strides
     count = 3 + 3 * len(strides)
     balance = np.zeros((2, count))
-    balance[:, 0] = -direction
+    balance[:, 0] = -jump.direction
     balance[0, 1] = balance[1, 2] = 1.0
     bounds: list[tuple[float | None, float | None]] = [(0.0, None)]
     bounds += [(-size, size) for size in (sole.half_length, sole.half_width)]
@@ -228,11 +224,7 @@ def _solve(
         rows.append(row)
         limits.append(np.zeros(len(row)))
         if about is not None and stride.travel < inf:
-            row = np.zeros((_SIDES, count))
-            for j in (k - 1, k):
-                row[:, 4 + 3 * j : 6 + 3 * j] = _AROUND / about.shares[j]
-                row[:, 3 + 3 * j] = -_AROUND @ about.strides[j] / about.shares[j]
-            rows.append(row)
+            rows.append(_way(about, k, count))
             way = about.strides[k - 1] + about.strides[k]
             limits.append(stride.travel * cos(pi / _SIDES) - _AROUND @ way)
     result = linprog(
@@ -240,7 +232,7 @@ def _solve(
         A_ub=np.vstack(rows),
         b_ub=np.concatenate(limits),
         A_eq=balance,
-        b_eq=dcm,
+        b_eq=jump.dcm,
         bounds=bounds,
         method="highs",
         options={"primal_feasibility_tolerance": 1e-9},
@@ -249,3 +241,15 @@ def _solve(
         return None
     table = result.x[3:].reshape(-1, 3)
     return Capture(float(result.x[0]), result.x[1:3], table[:, 0], table[:, 1:] / table[:, :1])
+
+
+def _way(about: Capture, k: int, count: int) -> Array:
+    """Return the rows (M, count) of how far the foot of stride k travels, linear about a capture.
+
+    `count`: of the unknowns.
+    """
+    row = np.zeros((_SIDES, count))
+    for j in (k - 1, k):
+        row[:, 4 + 3 * j : 6 + 3 * j] = _AROUND / about.shares[j]
+        row[:, 3 + 3 * j] = -_AROUND @ about.strides[j] / about.shares[j]
+    return row

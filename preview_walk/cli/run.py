@@ -48,20 +48,13 @@ def run(options: Options, command: str, interruption: Interruption) -> Record:
         pushes += _random_pushes(options, end)
     make_folder(options.out, result_names())
     with claimed(options.out):
-        return _walk_and_write(options, robot, plan, pushes, command, interruption)
+        record = _walk(options, robot, plan, pushes, interruption).with_run(command=command)
+        interruption.hold()
+        return _write(record, robot, options, interruption)
 
 
-def _walk_and_write(
-    options: Options,
-    robot: Robot,
-    plan: FootstepPlan | None,
-    pushes: tuple[Push, ...],
-    command: str,
-    interruption: Interruption,
-) -> Record:
-    """Walk, print the table and write the folder; return the record."""
-    record = _walk(options, robot, plan, pushes, interruption).with_run(command=command)
-    interruption.hold()
+def _write(record: Record, robot: Robot, options: Options, interruption: Interruption) -> Record:
+    """Print the table of a walk and write the folder; return the record."""
     stopped = record.run.interrupted
     if stopped:
         span = f"{len(record) * record.dt:.2f} s"

@@ -86,7 +86,7 @@ class Balance:
         """
         omega = self._rates.omega
         dcm = CentroidalState(dynamics.com, dynamics.com_velocity).dcm(omega)
-        self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, self._lag)
+        self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, lag=self._lag)
 
     def answer(
         self, t: float, pattern: WalkingPattern, feet: Feet, dynamics: Dynamics
@@ -99,7 +99,7 @@ class Balance:
             feet: as they are.
             dynamics: at the measured state.
         """
-        pushed, swing = self.disturbance, _free_swing(t, pattern.plan, feet, dynamics)
+        pushed, swing = self.disturbance, free_swing(t, pattern.plan, feet, dynamics)
         situation = Situation(t, pattern.plan, pushed.dcm, pushed.rate, pattern.planned_dcm, swing)
         decision = recover(situation, self._memory, self._limits)
         self._memory = decision.memory
@@ -113,7 +113,7 @@ class Balance:
         return early_landing(plan, t, foot, pose, self._memory)
 
 
-def _free_swing(
+def free_swing(
     t: float, plan: FootstepPlan, feet: Feet, dynamics: Dynamics
 ) -> tuple[Array, Array] | None:
     """Return position and velocity (3,), world, of the sole that swings freely, or None."""

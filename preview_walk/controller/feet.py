@@ -25,11 +25,25 @@ DESCENT = 0.6
 GRACE = 0.02
 """A foot that is due counts as standing for this long (s) before the ground must be felt."""
 
-PROBE_SPEED = 0.15
-"""A foot that is due and does not feel the ground goes on down at this speed (m/s)."""
 
-PROBE_TIME = 0.15
-"""So long (s) after it was due such a foot counts as standing all the same."""
+@dataclass(frozen=True)
+class Search:
+    """How a foot that is due and does not feel the ground looks for it.
+
+    Attributes:
+        speed: at which it goes on down, m/s.
+        time: so long after it was due it counts as standing all the same, s.
+    """
+
+    speed: float = 0.15
+    time: float = 0.15
+
+
+SEARCH = Search()
+"""The search where a foot should have landed: 2 cm down."""
+
+DEEP_SEARCH = Search(0.8, 0.2)
+"""The search on ground that is not known: 16 cm down."""
 
 SINK_SPEED = 0.05
 """A foot that should stand and carries nothing goes down at this speed (m/s): while all the load is
@@ -89,18 +103,28 @@ class Feet:
     Attributes:
         states: of each foot.
         targets: what each foot should do, as of the last `follow`.
+        searching: whether a foot that is due looks for the ground.
     """
 
-    def __init__(self, plan: FootstepPlan, weight: float, swing_height: float) -> None:
+    def __init__(
+        self,
+        plan: FootstepPlan,
+        weight: float,
+        swing_height: float,
+        search: Search = SEARCH,
+    ) -> None:
         """Stand on the plan's first soles.
 
         Args:
             plan: the walk.
             weight: of the robot, N.
             swing_height: of a swing's apex above the higher of its two soles, m.
+            search: for the ground, by feet that are due.
         """
+        self._search = search
         self._weight = weight
         self._swing_height = swing_height
+        self.searching = False
         stands = FootState(True, True, -np.inf, -np.inf, None)
         self.states: dict[Foot, FootState] = dict.fromkeys(FEET, stands)
         self.targets = {
@@ -128,7 +152,7 @@ class Feet:
             normal_force: what each sole's sensor reads, N.
         """
         step = plan.swing_at(t)
-        early = None
+        early, self.searching = None, False
         for foot in FEET:
             load = normal_force[foot] / self._weight
             if step is not None and step.foot == foot:
@@ -143,6 +167,7 @@ class Feet:
                 if not _lifts(plan, t, foot):
                     target = replace(target, sink=SINK_SPEED)
             self.targets[foot] = target
+            self.searching |= not target.contact
         return early
 
     def fly(self, targets: Mapping[Foot, FootTarget]) -> None:
@@ -153,6 +178,7 @@ class Feet:
 
     def land(self, t: float) -> None:
         """Stand on both feet from time t (s) on: one that does not feel the ground sinks."""
+        self.searching = False
         for foot in FEET:
             self.states[foot] = FootState(True, True, t, t, None)
 
@@ -188,14 +214,14 @@ class Feet:
         state, pose = self.states[foot], plan.sole(foot, t)
         felt = state.felt or touching
         late = np.inf if state.swing is None else t - state.swing.land
-        if felt or not GRACE < late < PROBE_TIME:
+        if felt or not GRACE < late < self._search.time:
             since = state.since if state.contact else t
             self.states[foot] = FootState(True, felt, since, state.bare, state.swing)
             return FootTarget(True, pose, _STILL, _STILL)
         self.states[foot] = FootState(False, felt, state.since, state.bare, state.swing)
         lower = pose.copy()
-        lower[2, 3] -= PROBE_SPEED * late
-        down = np.array((0.0, 0.0, -PROBE_SPEED, 0.0, 0.0, 0.0))
+        lower[2, 3] -= self._search.speed * late
+        down = np.array((0.0, 0.0, -self._search.speed, 0.0, 0.0, 0.0))
         return FootTarget(False, lower, down, _STILL)
 
     def normal_limits(self, t: float, plan: FootstepPlan) -> dict[Foot, float]:

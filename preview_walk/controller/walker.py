@@ -10,7 +10,7 @@ from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.airborne import Airborne
 from preview_walk.controller.balance import Balance
 from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
-from preview_walk.controller.feet import Feet
+from preview_walk.controller.feet import DEEP_SEARCH, SEARCH, Feet
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion
@@ -85,8 +85,7 @@ class Walker:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
-        self.ground = ground
-        self.blind = blind
+        self.ground, self.blind = ground, blind
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
@@ -105,7 +104,8 @@ class Walker:
         legs = leg_geometry(robot)
         model = WalkerModel(legs, robot.sole, momentum_model(robot), self.swing_height)
         self.pattern = WalkingPattern(plan, com, model, com_generator)
-        self.feet = Feet(plan, self.weight, self.swing_height)
+        search = DEEP_SEARCH if blind else SEARCH
+        self.feet = Feet(plan, self.weight, self.swing_height, search)
         self.reference: ComReference = self.pattern.at(plan.start)
         self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
         self._planned_until = -np.inf
@@ -223,7 +223,7 @@ class Walker:
         """Walk by another plan where a push asks for it; without ground to step on, wait."""
         dynamics = self.body.dynamics
         self.balance.observe(t, dynamics, self.feedback.sole_zmp)
-        if self.airborne.flight.flies:
+        if self.airborne.flight.flies or (self.blind and self.feet.searching):
             plan = waiting(self.plan, t)
             if plan is not None:
                 self.follow(plan)

@@ -36,6 +36,7 @@ def straight(
     planner: FootstepPlanner,
     start: Start = (0.0, 0.0),
     start_foot: Foot = "left",
+    *,
     limits: GaitLimits | None = None,
     ramp: int = 0,
 ) -> FootstepPlan:
@@ -159,6 +160,7 @@ def arc(
     planner: FootstepPlanner,
     start: Start = (0.0, 0.0),
     start_foot: Foot | None = None,
+    *,
     limits: GaitLimits | None = None,
     ramp: int = 0,
 ) -> FootstepPlan:

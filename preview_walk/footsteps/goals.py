@@ -84,6 +84,7 @@ def from_list(
     planner: FootstepPlanner,
     start: Start = (0.0, 0.0),
     limits: GaitLimits | None = None,
+    *,
     step_times: Sequence[float] | None = None,
     shorten: bool = False,
 ) -> FootstepPlan:

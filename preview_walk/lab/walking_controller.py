@@ -173,13 +173,8 @@ class WalkingController:
         if plan is None:
             plan = self.planner.generate_footsteps(n_steps, place, turn=turn)
             plan = plan.transformed(pose_at(0.0, 0.0, z=z))
-        elif finite_number(turn, "turn", "rad") != 0.0:
-            raise InvalidInput(
-                f"turn must be left out beside a plan, which has its own, got {turn}.", "turn"
-            )
         else:
-            plan = as_plan(plan)
-            _require_near(plan, place)
+            plan = _given(plan, place, turn)
         require_walkable(plan, gait_limits(self._robot))
         walk = Walk(
             scene,
@@ -193,6 +188,17 @@ class WalkingController:
         if self.fall is not None:
             warnings.warn(f"fell after {self.fall[0]:.2f} s: {self.fall[1]}", stacklevel=2)
         return {name: array[::ticks] for name, array in record.arrays().items()}
+
+
+def _given(plan: PlanLike, place: Heading, turn: float) -> FootstepPlan:
+    """Return a plan that somebody gives; raises `InvalidInput` for one that does not begin here."""
+    if finite_number(turn, "turn", "rad") != 0.0:
+        raise InvalidInput(
+            f"turn must be left out beside a plan, which has its own, got {turn}.", "turn"
+        )
+    given = as_plan(plan)
+    _require_near(given, place)
+    return given
 
 
 def _rates(timestep: float, dt: float) -> tuple[int, int]:

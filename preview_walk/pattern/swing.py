@@ -82,7 +82,7 @@ class Swing:
         )
         z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
         middle = self.lift + self.shape.apex * (self.land - self.lift)
-        vertical = _over(self.lift, (z0, 0.0, 0.0), middle, self._apex(z0, z1), self.land, z1)
+        vertical = _over((self.lift, (z0, 0.0, 0.0)), (middle, self._apex(z0, z1)), (self.land, z1))
         object.__setattr__(self, "plane", plane)
         object.__setattr__(self, "vertical", vertical)
 
@@ -198,10 +198,10 @@ class Swing:
                 apex = target  # it rises for the second time, as high as it must
             if apex > target + 1e-9:
                 top = max(top, t + 0.35 * (land - t))
-            return _over(t, now, top, max(apex, target), land, z1)
+            return _over((t, now), (top, max(apex, target)), (land, z1))
         moved = hypot(*(float(end[i, 3] - self.end[i, 3]) for i in (0, 1)))
         if now[0] < z1 + 0.25 * self.ground_clearance and moved > self.ground_clearance:
-            return _over(t, now, t + 0.4 * (land - t), z1 + self.ground_clearance, land, z1)
+            return _over((t, now), (t + 0.4 * (land - t), z1 + self.ground_clearance), (land, z1))
         direct = Quintic.between(t, land, now, (z1, 0.0, 0.0))
         floor = min(z1, now[0]) - DIP
         dips = any(direct.at(t + 0.1 * k * (land - t))[0] < floor for k in range(1, 10))
@@ -212,7 +212,7 @@ class Swing:
         wait = target
         if piece.end >= self.land:
             wait = max(target, z1) + 0.5 * share * share * max(0.0, now[0] - max(target, z1))
-        return _over(t, now, piece.end, wait, land, z1)
+        return _over((t, now), (piece.end, wait), (land, z1))
 
 
 def _overshoots(x: Quintic, y: Quintic) -> bool:
@@ -225,9 +225,13 @@ def _overshoots(x: Quintic, y: Quintic) -> bool:
 
 
 def _over(
-    t: float, now: State, middle: float, height: float, land: float, z1: float
+    start: tuple[float, State], apex: tuple[float, float], landing: tuple[float, float]
 ) -> tuple[Quintic, Quintic]:
-    """Return the two quintics that rest at `height` at time `middle` and at z1 at time `land`."""
+    """Return the two quintics of the height over an apex, where they rest, to the landing.
+
+    Each is a time (s) and what is then: position, velocity and acceleration, or a height (m).
+    """
+    (t, now), (middle, height), (land, z1) = start, apex, landing
     rest, last = (height, 0.0, 0.0), (z1, 0.0, 0.0)
     return Quintic.between(t, middle, now, rest), Quintic.between(middle, land, rest, last)
 

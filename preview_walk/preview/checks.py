@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.types import Array
 
@@ -118,9 +119,3 @@ def require_type(name: str, value: object, kind: type) -> None:
             f"expected {name} to be a {kind.__name__}, got a {type(value).__name__}.",
             argument=name,
         )
-
-
-def shown(value: object) -> str:
-    """Return a value as a sentence can carry it."""
-    text = repr(value).replace("\n", " ")
-    return text if len(text) <= 80 else f"{text[:77]}..."

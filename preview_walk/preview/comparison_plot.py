@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.files import whole_file
-from preview_walk.preview.checks import require_type, shown
+from preview_walk.preview.checks import require_type
 from preview_walk.preview.compare import Comparison
 from preview_walk.preview.limits import input_limits
 from preview_walk.types import Array
@@ -52,33 +55,8 @@ def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Pat
     FigureCanvasAgg(figure)
     axes = figure.subplots(p + m, 1, sharex=True, squeeze=False)[:, 0]
     t: Array = comparison.design.dt * np.arange(len(r), dtype=np.float64)
-    limits = comparison.limits
-    y_sides = limits.extent(len(r), p)
-    u_sides = input_limits(limits.u_min, limits.u_max, m)
-    for row, name in enumerate(plant.outputs):
-        axes[row].plot(t, r[:, row], color="0.3", linewidth=1.0, linestyle="--", label="reference")
-        for result in comparison.results:
-            colour = COLOURS[result.name]
-            axes[row].plot(
-                t,
-                result.run.y[:, row],
-                color=colour,
-                linewidth=WIDTHS[result.name],
-                label=result.name,
-            )
-        _limit_lines(axes[row], t, [side[:, row] for side in y_sides])
-        axes[row].set_ylabel(name)
-    for row, name in enumerate(plant.inputs, p):
-        for result in comparison.results:
-            axes[row].step(
-                t,
-                result.run.u[:, row - p],
-                where="post",
-                color=COLOURS[result.name],
-                linewidth=WIDTHS[result.name],
-            )
-        _limit_lines(axes[row], t, [np.full(len(r), side[row - p]) for side in u_sides])
-        axes[row].set_ylabel(name)
+    _draw_outputs(axes[:p].tolist(), t, comparison)
+    _draw_inputs(axes[p:].tolist(), t, comparison)
     for axis in axes:
         axis.grid(True, color="0.9", linewidth=0.6)
         axis.spines[["top", "right"]].set_visible(False)
@@ -87,6 +65,34 @@ def plot_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Pat
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=6,
                   frameon=False)  # fmt: skip
     return save(figure, path)
+
+
+def _draw_outputs(axes: Sequence[Axes], t: Array, comparison: Comparison) -> None:
+    """Draw the outputs of all laws over the times t (M,), s, beside reference and limits."""
+    r, limits = comparison.reference, comparison.limits
+    sides = limits.extent(len(r), len(axes))
+    for row, (axis, name) in enumerate(zip(axes, comparison.design.plant.outputs, strict=True)):
+        axis.plot(t, r[:, row], color="0.3", linewidth=1.0, linestyle="--", label="reference")
+        for result in comparison.results:
+            axis.plot(t, result.run.y[:, row], label=result.name, **_style(result.name))
+        _limit_lines(axis, t, [side[:, row] for side in sides])
+        axis.set_ylabel(name)
+
+
+def _draw_inputs(axes: Sequence[Axes], t: Array, comparison: Comparison) -> None:
+    """Draw the inputs of all laws, held over each sample, beside their limits."""
+    plant, limits = comparison.design.plant, comparison.limits
+    sides = input_limits(limits.u_min, limits.u_max, plant.B.shape[1])
+    for row, (axis, name) in enumerate(zip(axes, plant.inputs, strict=True)):
+        for result in comparison.results:
+            axis.step(t, result.run.u[:, row], where="post", **_style(result.name))
+        _limit_lines(axis, t, [np.full(len(t), side[row]) for side in sides])
+        axis.set_ylabel(name)
+
+
+def _style(law: str) -> dict[str, Any]:
+    """Return how a law's line is drawn."""
+    return {"color": COLOURS[law], "linewidth": WIDTHS[law]}
 
 
 def save(figure: Figure, path: str | os.PathLike[str]) -> Path:

@@ -14,9 +14,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table, coasted
-from preview_walk.preview.checks import positive, read_only, real_array, require_type, shown
+from preview_walk.preview.checks import positive, read_only, real_array, require_type
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.horizon import MAX_HORIZON

@@ -33,8 +33,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import computable, shown
+from preview_walk.preview.checks import computable
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.horizon import check_horizon, samples, slow_mode, warn_if_short
 from preview_walk.preview.plant import Linear, Plant, read_plant

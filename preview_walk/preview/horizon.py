@@ -7,8 +7,8 @@ import warnings
 
 import numpy as np
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import shown
 from preview_walk.types import Array
 
 MIN_TIME_CONSTANTS = 2.0

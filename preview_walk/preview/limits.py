@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import real_array, shown
+from preview_walk.preview.checks import real_array
 from preview_walk.preview.half_planes import HalfPlanes, both, of_box, of_polygons
 from preview_walk.types import Array
 

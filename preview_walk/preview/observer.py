@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import real_array, require_type, shown
+from preview_walk.preview.checks import real_array, require_type
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.weights import weight_matrix
 from preview_walk.types import Array

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import Value, positive, real_array, shown
+from preview_walk.preview.checks import Value, positive, real_array
 from preview_walk.types import Array
 
 if TYPE_CHECKING:

@@ -14,8 +14,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.checks import computable, finite_vector, require_type, sequence, shown
+from preview_walk.preview.checks import computable, finite_vector, require_type, sequence
 from preview_walk.preview.design import PreviewDesign, loop_matrices
 from preview_walk.preview.recursion import Recursion
 from preview_walk.types import Array

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.cart_table import ComState
-from preview_walk.preview.checks import real_array, shown
+from preview_walk.preview.checks import real_array
 from preview_walk.types import Array
 
 

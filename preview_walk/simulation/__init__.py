@@ -1,4 +1,5 @@
 """Walks in MuJoCo: plants that can be sensed and driven, and the one loop that drives them.
 
-Imports everything down to `record`; it knows nothing of plots. Start with `walk`, then `plant`.
+Imports everything below it but `analysis`. Start with `walk`, the loop, then `plant`, what it
+senses and drives: another sensor, motor or ground is part of a plant, as in `world`, ours.
 """

@@ -36,7 +36,13 @@ class Disturbance:
 
 
 def observe(
-    last: Disturbance, t: float, dcm: Array, zmp: Array, omega: float, lag: float = SMOOTHING_TIME
+    last: Disturbance,
+    t: float,
+    dcm: Array,
+    zmp: Array,
+    omega: float,
+    *,
+    lag: float = SMOOTHING_TIME,
 ) -> Disturbance:
     """Return the estimate at time t (s).
 

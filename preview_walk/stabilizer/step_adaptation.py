@@ -17,6 +17,7 @@ step takes up) in a box; all times are solved at once.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import exp
 
 import numpy as np
@@ -99,9 +100,8 @@ def adapt_step(situation: Situation, nominal: Footstep, limits: StepLimits) -> F
         (situation.planned_dcm(middle) - step.pose[:2, 3]) @ axes,
     )
     tau = np.exp(limits.omega * (land + 0.5 * min(pause, SHORT_PAUSE) - t))[:, None]
-    carried = _carried(limits, step.foot, wanted[2])
-    half = np.array(limits.zmp)
-    place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, box, carried, half)
+    room = _Room(box, _carried(limits, step.foot, wanted[2]), np.array(limits.zmp))
+    place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, room)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
 
@@ -165,13 +165,23 @@ def _reachable(
     return np.clip(here - behind, low, high), np.clip(here + ahead, low, high)
 
 
+@dataclass(frozen=True, eq=False)
+class _Room:
+    """What an answer may use, in the stance foot's axes.
+
+    Attributes:
+        box: lowest and highest footholds, (N, 2) each, m.
+        carried: lowest and highest offset that the next step can catch, (2,) each, m.
+        half: (2,) largest shift of the ZMP, m.
+    """
+
+    box: tuple[Array, Array]
+    carried: tuple[Array, Array]
+    half: Array
+
+
 def _footholds(
-    free: Array,
-    lever: Array,
-    wanted: tuple[Array, Array, Array],
-    box: tuple[Array, Array],
-    carried: tuple[Array, Array],
-    half: Array,
+    free: Array, lever: Array, wanted: tuple[Array, Array, Array], room: _Room
 ) -> tuple[Array, Array]:
     """Return the best foothold (N, 2) of each landing time and its cost (N,).
 
@@ -181,9 +191,7 @@ def _footholds(
         free: (N, 2) where the DCM is at landing with the ZMP at the stance foot's centre (m).
         lever: (N, 1) how far a ZMP 1 m from there moves it (m).
         wanted: (2,) each: the commanded foothold, the present one, and the DCM's offset from it.
-        box: lowest and highest footholds, (N, 2) each.
-        carried: lowest and highest offset that the next step can catch, (2,) each.
-        half: (2,) largest shift of the ZMP.
+        room: what may be used.
     """
     goal, current, offset = wanted
     delta, carry = np.zeros_like(free), np.zeros_like(free)
@@ -191,12 +199,14 @@ def _footholds(
     for _ in range(30):  # coordinate descent: convex, three variables, a box
         place = np.clip(
             (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
-            *box,
+            *room.box,
         )
         delta = np.clip(
-            w * lever * (free - offset - carry - place) / (w * lever * lever + z), -half, half
+            w * lever * (free - offset - carry - place) / (w * lever * lever + z),
+            -room.half,
+            room.half,
         )
-        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), *carried)
+        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), *room.carried)
     miss = free - lever * delta - offset - carry - place
     cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
     cost += k * ((place - current) ** 2).sum(axis=1)

@@ -216,6 +216,7 @@ def rough(
     length: float = 10.0,
     width: float = 3.0,
     seed: int = 0,
+    *,
     begin: float = 0.5,
 ) -> HeightField:
     """Return smooth random ground.

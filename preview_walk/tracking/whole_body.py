@@ -198,8 +198,8 @@ class WholeBodyController:
                 contacts,
                 [*self.tasks, *swing],
                 self.posture,
-                self.gains.wrench_weight,
-                self.friction,
+                wrench_weight=self.gains.wrench_weight,
+                friction=self.friction,
             )
             self._problems[contacts] = problem
         problem.fill(self.dynamics, normal_limit, self._shares(contacts), self.settle)

@@ -7,7 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from preview_walk.controller.feeling import AS_PLANNED, CONFORM_RATE, conforming, felt_planes
+from preview_walk.controller.feeling import (
+    AS_PLANNED,
+    CONFORM_RATE,
+    TRUST,
+    conforming,
+    felt_planes,
+)
 from preview_walk.controller.feet import FootState
 from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole
@@ -32,9 +38,9 @@ def test_a_foot_that_comes_to_stand_alone_tells_the_tilt() -> None:
     before, now = {"left": STANDS, "right": STANDS}, {"left": STANDS, "right": SWINGS}
     ((foot, felt),) = felt_planes(before, now, SOLES, Plane())
     assert foot == "left"
-    corners = SOLE.corners(SOLES["left"])
-    assert felt.height(corners[:, 0], corners[:, 1]) == pytest.approx(corners[:, 2], abs=1e-12)
-    assert felt.normal(0.0, 0.0) == pytest.approx(SOLES["left"][:3, 2], abs=1e-12)
+    sole = Plane.through(SOLES["left"][:3, 3], SOLES["left"][:3, 2])
+    assert (felt.ahead, felt.left) == pytest.approx((TRUST * sole.ahead, TRUST * sole.left))
+    assert felt.height(0.3, 0.1) == pytest.approx(0.05)
 
 
 def test_feet_that_stand_tell_nothing() -> None:

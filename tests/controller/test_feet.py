@@ -11,9 +11,8 @@ import preview_walk as pw
 from preview_walk.controller.feet import (
     GRACE,
     HANG,
-    PROBE_SPEED,
-    PROBE_TIME,
     RAMP_TIME,
+    SEARCH,
     SINK_SPEED,
     Feet,
 )
@@ -81,8 +80,8 @@ def test_a_foot_that_misses_the_ground_goes_on_down_until_it_is_there(
     follow(feet, land + late, plan, RIGHT_ONLY)
     assert not feet.states["left"].contact
     target = feet.targets["left"]
-    assert target.pose[2, 3] == pytest.approx(plan.steps[0].pose[2, 3] - PROBE_SPEED * late)
-    assert target.velocity[2] == -PROBE_SPEED
+    assert target.pose[2, 3] == pytest.approx(plan.steps[0].pose[2, 3] - SEARCH.speed * late)
+    assert target.velocity[2] == -SEARCH.speed
     follow(feet, land + late + 0.01, plan, BOTH)
     assert feet.states["left"].contact
     # Felt once, a light sole stays a contact.
@@ -92,7 +91,7 @@ def test_a_foot_that_misses_the_ground_goes_on_down_until_it_is_there(
 
 def test_a_ground_never_felt_is_believed_in_the_end(feet: Feet, plan: FootstepPlan) -> None:
     lift(feet, plan)
-    follow(feet, plan.steps[0].land + PROBE_TIME + 1e-3, plan, RIGHT_ONLY)
+    follow(feet, plan.steps[0].land + SEARCH.time + 1e-3, plan, RIGHT_ONLY)
     assert feet.states["left"].contact
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.layout import STAND_TIME
 from preview_walk.footsteps.limits import GaitLimits
+from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.footsteps.stride import Stride
 from preview_walk.geometry.poses import midfeet, pose_at
@@ -194,3 +195,12 @@ def test_progress_stays_between_nought_and_one(t):
     phase, progress = planner.get_support_phase(t, plan)
     assert 0.0 <= progress <= 1.0
     assert phase == ("double", "left_support", "right_support")[plan.support(t)]
+
+
+def test_a_walk_goes_on_after_a_stand_in_which_the_weight_shifts():
+    """However slowly it does: there and back takes two shifts."""
+    soles = pose_at(0.0, 0.1, 0.0), pose_at(0.0, -0.1, 0.0)
+    for shift, pause in ((0.4, STAND_TIME), (1.2, 2.4)):
+        before = FootstepPlan.standing(*soles, start=1.0, weight_shift=shift)
+        plan = FootstepPlanner(0.2, 0.2, 0.9).walk([Stride(0.2), Stride()], before)
+        assert plan.steps[0].lift == pytest.approx(1.0 + pause)

@@ -149,6 +149,11 @@ def test_a_stand_is_rested_at_midfeet():
     rest = np.linspace(pause[0] + plan.weight_shift, pause[1] - plan.weight_shift, 5)
     assert np.allclose(ref.at(rest), [[0.6, 0.0]] * 5)
     assert np.allclose(ref.velocity(rest), 0.0)
+    # There and back it takes the whole shift of weight: halfway in time is halfway in space.
+    shift = 0.5 * plan.weight_shift
+    for t, stood in ((pause[0] + shift, "left"), (pause[1] - shift, "right")):
+        sole = plan.sole(stood, t)[:2, 3]
+        assert np.allclose(ref.at(t), 0.5 * (sole + np.array((0.6, 0.0))))
 
 
 def test_replacing_the_future_keeps_the_past():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
-from collections.abc import Callable
+from dataclasses import dataclass
 
 import joblib
 import pytest
@@ -20,30 +20,37 @@ def busy_walk(robot: Robot) -> pw.Walk:
     return walk.run(until=3.11)
 
 
-def pickled(walk: pw.Walk) -> pw.Walk:
-    copied: pw.Walk = pickle.loads(pickle.dumps(walk))
-    return copied
+@dataclass
+class Copied:
+    """A walk that has gone on since, and copies of what it was."""
+
+    record: pw.Record
+    pickled: bytes
+    deep: pw.Walk
 
 
-@pytest.mark.parametrize("copied", [pickled, copy.deepcopy])
-def test_a_copy_goes_on_as_the_original_does(
-    talos: Robot, copied: Callable[[pw.Walk], pw.Walk]
-) -> None:
+@pytest.fixture(scope="module")
+def copied(talos: Robot) -> Copied:
     walk = busy_walk(talos)
-    twin = copied(walk)
-    assert twin.plant is not walk.plant
-    walk.run(until=4.2)
+    pickled, deep = pickle.dumps(walk), copy.deepcopy(walk)
+    assert deep.plant is not walk.plant
+    record = walk.run(until=4.2).record()
+    assert len(record.plans) > 3
+    return Copied(record, pickled, deep)
+
+
+@pytest.mark.parametrize("how", ["pickled", "deep"])
+def test_a_copy_goes_on_as_the_original_does(copied: Copied, how: str) -> None:
+    twin: pw.Walk = pickle.loads(copied.pickled) if how == "pickled" else copied.deep
     assert twin.time == pytest.approx(3.11)  # the original's ticks moved nothing of it
-    twin.run(until=4.2)
-    assert twin.record().differences(walk.record()) == ()
-    assert len(walk.record().plans) > 3
+    assert twin.run(until=4.2).record().differences(copied.record) == ()
 
 
-def test_a_copy_in_another_process_goes_on_as_the_original_does(talos: Robot) -> None:
+def test_a_copy_in_another_process_goes_on_as_the_original_does(copied: Copied) -> None:
     def walked_on(walk: pw.Walk) -> pw.Record:
         return walk.run(until=3.3).record()
 
-    walk = busy_walk(talos)
+    walk: pw.Walk = pickle.loads(copied.pickled)
     (far,) = joblib.Parallel(n_jobs=2)([joblib.delayed(walked_on)(walk)])
     assert far.differences(walked_on(walk)) == ()
 

@@ -71,6 +71,19 @@ def test_a_push_beside_the_centre_turns_the_robot(talos: Robot) -> None:
     assert angular == pytest.approx(np.cross(lever, force) * duration, rel=2e-2, abs=1e-3)
 
 
+def test_a_point_is_one_of_the_body_however_that_is_turned(talos: Robot) -> None:
+    """In the base's own axes, in which MuJoCo has its moment, it is lever times force."""
+    world = World(talos, pushes=[Push(0.0, 1.0, (3.0, 2.0, -4.0), point=(0.3, 0.1, -0.2))])
+    turned = np.array(talos.posture)
+    turned[3:7] = pin.Quaternion(pin.rpy.rpyToMatrix(0.3, -0.4, 2.0)).coeffs()
+    world.place(turned, 0.0)
+    world.step(np.zeros(talos.pin.nv - 6), 1)
+    axes = pin.Quaternion(turned[3:7]).toRotationMatrix()
+    moment = np.cross((0.3, 0.1, -0.2), axes.T @ (3.0, 2.0, -4.0))
+    assert world.data.qfrc_applied[:3] == pytest.approx((3.0, 2.0, -4.0))
+    assert world.data.qfrc_applied[3:6] == pytest.approx(moment, abs=1e-9)
+
+
 def test_without_a_body_the_base_is_pushed(talos: Robot) -> None:
     pushed, expected = (
         momenta(talos, [Push(0.0, 0.05, (50.0, -20.0, 0.0), body=body)], 0.1)

@@ -14,11 +14,14 @@ from preview_walk.geometry.poses import pose_at
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.requests import Requests
 
+PATIENCE = 30.0
+"""Time (s) in which a thread that asks must have asked: far more than it needs."""
+
 
 @pytest.fixture
 def walk(talos: Robot) -> pw.Walk:
     planner = pw.FootstepPlanner(0.2, talos.step_width, 0.8)
-    return pw.Walk(talos, planner.generate_footsteps(6)).run(until=0.5)
+    return pw.Walk(talos, planner.generate_footsteps(2)).run(until=0.5)
 
 
 def plan_of(walk: pw.Walk, steps: int = 2, start: tuple[float, ...] = (0.0, 0.0)) -> object:
@@ -56,7 +59,7 @@ def test_a_plan_of_the_past_is_refused_elsewhere_and_stood_on_here(walk: pw.Walk
 
 def test_other_forms_of_a_plan_are_walked(talos: Robot) -> None:
     """The lab's dictionaries, and a plan of a record, lead to the same feet."""
-    plan = pw.FootstepPlanner(0.2, talos.step_width, 0.8).generate_footsteps(3)
+    plan = pw.FootstepPlanner(0.2, talos.step_width, 0.8).generate_footsteps(1)
     record = pw.Walk(talos, plan).run().record()
     again = pw.Walk(talos, record.plans[-1]).run().record()
     assert again.differences(record) == ()
@@ -90,7 +93,7 @@ def test_commands_and_plans_from_another_thread_are_taken_at_a_tick(talos: Robot
     thread = threading.Thread(target=steer)
     thread.start()
     try:
-        walk.run(until=2.0)
+        walk.run(until=1.0)
     finally:
         stop.set()
         thread.join()
@@ -108,7 +111,8 @@ def test_a_request_waits_for_the_tick_under_way_elsewhere() -> None:
     with requests:
         requests.do(lambda: done.append("own"))  # the same thread, as in a callback, need not wait
         asked.start()
-        asked.join()
+        asked.join(PATIENCE)
+        assert not asked.is_alive()  # who asks is not held up by the tick
         assert done == ["own"]
     with requests:
         assert done == ["own", "asked"]
@@ -123,7 +127,7 @@ def test_a_request_that_cannot_be_done_any_more_is_warned_of() -> None:
     asked = threading.Thread(target=lambda: requests.do(refuse))
     with requests:
         asked.start()
-        asked.join()
+        asked.join(PATIENCE)
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         with requests:

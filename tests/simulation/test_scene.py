@@ -156,3 +156,66 @@ def test_settings_that_are_the_plants_own_are_refused_beside_it(spec: mujoco.MjS
     for name, value in (("friction", 0.5), ("physics_hz", 500), ("com_height", 0.8)):
         with pytest.raises(pw.InvalidInput, match=f"^{name} must be left out beside a plant"):
             pw.Walk.standing(scene, **{name: value})
+
+
+def scene_of(spec: mujoco.MjSpec, *pushes: pw.Push, time: float = 0.0) -> pw.Scene:
+    """Return a scene whose clock shows `time` (s)."""
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.time = time
+    return pw.Scene(pw.load_robot(model), model, data, pushes)
+
+
+def test_the_friction_is_the_larger_of_floor_and_sole_as_mujoco_has_it(
+    spec: mujoco.MjSpec,
+) -> None:
+    for floor, sole, both in ((0.4, 0.7, 0.7), (0.6, 0.5, 0.6)):
+        spec.geom("floor").friction[0] = floor
+        for foot in ("left_foot", "right_foot"):
+            spec.geom(foot).friction[0] = sole
+        assert scene_of(spec).friction == pytest.approx(both)
+
+
+def test_pushes_come_by_the_walks_clock_whatever_the_scenes_shows(spec: mujoco.MjSpec) -> None:
+    scene = scene_of(spec, pw.Push(0.1, 0.1, (3.0, 0.0, 0.0)), time=5.0)
+    scene.place(scene.robot.posture, 0.0)
+    felt = []
+    for _ in range(15):
+        scene.step(np.zeros(len(scene.robot.effort)), 10)  # 20 ms
+        felt.append(float(scene.push[0]))
+    assert felt == [0.0] * 5 + [3.0] * 5 + [0.0] * 5
+
+
+def test_the_ground_pushes_up_whichever_geom_mujoco_names_first(spec: mujoco.MjSpec) -> None:
+    """Balls under the left foot come before a box on the floor, after a plane."""
+    foot = spec.body("left_foot")
+    spec.delete(spec.geom("left_foot"))
+    for x in (-0.06, 0.12):
+        for y in (-0.03, 0.03):
+            size, pos = (0.005, 0.0, 0.0), (x, y, -0.07)
+            foot.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=size, pos=pos)
+    box = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, contype=3, conaffinity=3)
+    box.size, box.pos = (1.0, 1.0, 0.05), (0.0, 0.0, -0.048)
+    scene = scene_of(spec)
+    scene.place(scene.robot.posture, 0.0)
+    scene.sense()
+    kinds = {tuple(scene.model.geom_type[geom] for geom in c.geom) for c in scene.data.contact}
+    assert (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_BOX)) in kinds
+    for wrench in scene.wrench.values():
+        assert wrench[2] > 10.0
+
+
+def test_a_servo_gives_the_torque_asked_wherever_its_joint_is_and_moves(
+    spec: mujoco.MjSpec,
+) -> None:
+    for motor in spec.actuators:
+        limit = tuple(motor.ctrlrange)
+        motor.set_to_position(kp=150.0, kv=4.0)
+        motor.forcerange, motor.forcelimited = limit, 1
+    scene = scene_of(spec)
+    scene.place(scene.robot.posture, 0.0)
+    dofs = [int(scene.model.joint(name).dofadr[0]) for name in scene.robot.joint_names]
+    scene.data.qvel[dofs] = np.linspace(-1.0, 1.0, len(dofs))
+    torques = np.linspace(-5.0, 5.0, len(dofs))
+    scene.step(torques, 1)
+    assert scene.data.qfrc_actuator[dofs] == pytest.approx(torques)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 
+import mujoco
 import numpy as np
 import pinocchio as pin
 import pytest
 
 from preview_walk.errors import InvalidInput
+from preview_walk.robots.load import load_robot
+from preview_walk.robots.reading.description import models_folder
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.rates import steps_per_tick
 from preview_walk.simulation.world import World
 from preview_walk.types import FEET, Array
@@ -67,6 +71,35 @@ def test_each_torque_reaches_its_own_joint(talos: Robot) -> None:
     for name, torque in zip(talos.joint_names, torques, strict=True):
         dof = talos.mj.joint(name).dofadr[0]
         assert world.data.qfrc_actuator[dof] == pytest.approx(torque, abs=1e-12)
+
+
+def test_joints_without_a_motor_do_not_shift_the_torques_of_others() -> None:
+    spec = mujoco.MjSpec.from_file(str(models_folder() / "humanoid-walker.xml"))
+    for motor in list(spec.actuators):
+        if motor.target == "left_elbow":
+            spec.delete(motor)
+    robot = load_robot(spec)
+    world = World(robot)
+    torques = np.arange(1.0, 1.0 + len(robot.joint_names))
+    world.place(robot.posture, 0.0)
+    world.step(torques, 1)
+    driven = {
+        world.model.joint(int(joint)).name: float(ctrl)
+        for joint, ctrl in zip(world.model.actuator_trnid[:, 0], world.data.ctrl, strict=True)
+    }
+    named = dict(zip(robot.joint_names, torques.tolist(), strict=True))
+    del named["left_elbow"]
+    assert driven == named
+
+
+def test_pushes_come_by_the_clock_of_a_walk_that_begins_late(talos: Robot) -> None:
+    world = World(talos, pushes=[Push(5.1, 0.1, (3.0, 0.0, 0.0))])
+    world.place(talos.posture, 5.0)
+    felt = []
+    for _ in range(6):
+        world.step(np.zeros(talos.pin.nv - 6), 50)
+        felt.append(float(world.push[0]))
+    assert felt == [0.0, 0.0, 3.0, 3.0, 0.0, 0.0]
 
 
 def test_joints_accelerate_as_the_dynamics_say(talos: Robot) -> None:

@@ -28,6 +28,8 @@ PLAN = pw.FootstepPlanner(0.25, 0.17, 0.9).generate_footsteps(4)
 def test_a_flight_begins_after_a_while_and_ends_with_the_first_touch() -> None:
     flight = feel(Flight(), 0.0, 0.0, 1.0, False)  # the first sense of a run knows nothing yet
     assert not flight.flies
+    # Though no ground was ever felt.
+    assert feel(flight, 1.01 * FLIGHT_TIME, 0.0, 1.0, False).flies
     flight = feel(flight, 1.0, 1.0, 0.0, False)
     assert not feel(flight, 1.0 + 0.99 * FLIGHT_TIME, 0.0, 1.0, False).flies
     flight = feel(flight, 1.0 + 1.01 * FLIGHT_TIME, 0.5 * UNFELT, 2.0 * CLEAR, False)

@@ -66,6 +66,40 @@ def test_a_foot_that_has_touched_down_is_not_moved():
     assert recover(situation, RecoveryMemory(), LIMITS).plan is None
 
 
+def on_both_feet(zmp: float, rate: float = 0.0) -> Situation:
+    """Return a walker in double support that needs its ZMP `zmp` (m) ahead of midfeet.
+
+    There the pendulum comes to the DCM that the plan has at the next lift; what the plan has now
+    is far from both. `rate`: of a push forward, m/s.
+    """
+    plan = pw.FootstepPlanner(0.2, 0.2, 0.9).generate_footsteps(8)
+    land, lift = plan.steps[3].land, plan.steps[4].lift
+    t = land + 0.3 * (lift - land)
+    middle = np.mean([plan.sole(foot, t)[:2, 3] for foot in ("left", "right")], axis=0)
+    needed, goal = (middle + np.array((x, 0.0)) for x in (zmp, 0.05))
+    dcm = needed + (goal - needed) * np.exp(-OMEGA * (lift - t))
+
+    def planned(time: float) -> Array:
+        return goal if time > t else dcm + np.array((0.3, 0.0))
+
+    return Situation(t, plan, dcm, np.array((rate, 0.0)), planned, None)
+
+
+def test_on_both_feet_the_plan_stays_while_a_zmp_above_the_soles_saves_it():
+    """The soles reach 0.2 m ahead of midfeet, their held part 0.195 m."""
+    for zmp in (-0.15, 0.0, 0.15):
+        assert recover(on_both_feet(zmp), RecoveryMemory(), LIMITS).plan is None
+    for zmp in (-0.4, 0.4):
+        decision = recover(on_both_feet(zmp), RecoveryMemory(), LIMITS)
+        assert decision.plan is not None
+        assert decision.memory.changed == on_both_feet(zmp).t
+
+
+def test_a_push_that_lasts_is_answered_where_it_leads():
+    assert recover(on_both_feet(0.15, 1.0), RecoveryMemory(), LIMITS).plan is not None
+    assert recover(on_both_feet(0.15, -1.0), RecoveryMemory(), LIMITS).plan is None
+
+
 def test_an_early_touchdown_is_a_landing_in_a_recovery_only():
     situation, step = in_swing((0.0, 0.0))
     t, plan, pose = situation.t, situation.plan, pose_at(0.5, 0.12, 0.1)

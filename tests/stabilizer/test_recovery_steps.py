@@ -109,6 +109,8 @@ def test_a_stand_is_left_by_two_allowed_steps_that_end_in_a_stand(dcm: tuple[flo
     stance = plan.sole(second.foot, 1.0)
     assert GAIT.problem(first.foot, stance, first.pose) is None
     assert np.linalg.norm(first.pos - second.pos) == pytest.approx(GAIT.step_width)
+    ends = {step.foot: step.pos[1] for step in new.steps}
+    assert ends["left"] > ends["right"]  # beside the other foot on its own side: legs do not cross
     # Once decided it is not decided again before the lift.
     assert out(new, 1.005, dcm) is None
 

@@ -20,6 +20,7 @@ from preview_walk.stabilizer.step_adaptation import (
     LATEST,
     RELIFT,
     SOON,
+    _carried,
     adapt_step,
 )
 from preview_walk.stabilizer.step_limits import StepLimits
@@ -224,3 +225,14 @@ def test_the_dcm_lands_where_the_plan_has_it_from_its_foot(sideways: float):
     offset, wanted = landed - changed.pos[:2], dcm[1] - step.pos[:2]
     # What the ZMP and the next step take up leaves 10 and 24 mm.
     assert abs(offset[0] - wanted[0]) < 0.03
+
+
+def test_the_next_step_catches_what_falls_to_the_side_where_it_lands():
+    """Past a left foot's inner edge the right foot can step; past its outer edge it cannot."""
+    none = np.zeros(2)
+    low, high = _carried(LIMITS, "left", none)
+    right_low, right_high = _carried(LIMITS, "right", none)
+    assert -low[1] > 2.0 * high[1] > 0.0
+    assert (right_low[1], right_high[1]) == pytest.approx((-high[1], -low[1]))
+    assert (right_low[0], right_high[0]) == pytest.approx((low[0], high[0]))
+    assert high[0] > -low[0] > 0.0  # further ahead than back

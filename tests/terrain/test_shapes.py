@@ -22,9 +22,9 @@ def test_all_begin_with_a_level_place_to_stand_on(name: str) -> None:
 
 def test_stairs_up_and_back() -> None:
     ground = stairs(0.15, 0.28, 3, back=True)
-    middles = BEGIN + np.array((-0.1, 0.14, 0.42, 1.0, 1.70, 1.98, 2.3))
+    middles = BEGIN + np.array((-0.1, 0.14, 0.42, 1.0, 1.70, 1.98, 2.3, 4.0))
     assert ground.height(middles, 0.0 * middles) == pytest.approx(
-        [0.0, 0.15, 0.30, 0.45, 0.30, 0.15, 0.0]
+        [0.0, 0.15, 0.30, 0.45, 0.30, 0.15, 0.0, 0.0]
     )
     assert stairs(-0.1, 0.3, 2).height(BEGIN + 0.45, 0.0) == pytest.approx(-0.2)
 

@@ -1,4 +1,7 @@
+import copy
+import pickle
 import re
+from collections.abc import Callable
 
 import numpy as np
 import pinocchio as pin
@@ -125,3 +128,15 @@ def test_an_unknown_frame(talos: Robot) -> None:
     said = re.escape("expected the name of a frame of talos, got 'third_arm'; it has universe, ")
     with pytest.raises(InvalidInput, match=said):
         Dynamics(talos).frame("third_arm")
+
+
+@pytest.mark.parametrize("copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
+def test_a_copy_is_at_the_same_state(robot: Robot, copied: Callable[[Dynamics], Dynamics]) -> None:
+    """Before the next update too: whoever asks a walk's copy for its CoM gets the walk's."""
+    here = at(robot, *random_state(robot, 1))
+    hand = here.add_frame(robot.pin.nframes - 1)
+    twin = copied(here)
+    for name in ("q", "v", "com", "com_velocity", "com_jacobian", "com_drift", "bias"):
+        assert (getattr(twin, name) == getattr(here, name)).all(), name
+    assert (twin.add_frame(hand.frame).pose == hand.pose).all()
+    assert twin.com is not here.com

@@ -83,6 +83,22 @@ def test_the_torso_turns_upright(robot: Robot) -> None:
     np.testing.assert_allclose(end.rotation, task.rotation, atol=2e-3)
 
 
+def test_turns_are_asked_for_in_the_frames_own_axes(talos: Robot) -> None:
+    """However the robot is turned: a turn about the world's axis w is one about R^T w."""
+    q, _ = random_state(talos, 6)
+    dynamics = Dynamics(talos)
+    dynamics.update(q, np.zeros(talos.pin.nv))
+    about = np.array([0.3, -0.2, 0.5])
+    torso, foot = TorsoTask(1.0, 10.0), FootTask("left", 1.0, 10.0)
+    torso.rotation = pin.exp3(about) @ dynamics.torso.rotation
+    foot.pose = dynamics.soles["left"].pose
+    foot.pose[:3, :3] = pin.exp3(about) @ foot.pose[:3, :3]
+    for task, frame in ((torso, dynamics.torso), (foot, dynamics.soles["left"])):
+        jacobian, target = np.zeros((task.rows, dynamics.nv)), np.zeros(task.rows)
+        task.update(dynamics, jacobian, target)
+        np.testing.assert_allclose(target[-3:], 100.0 * frame.rotation.T @ about, atol=1e-9)
+
+
 def test_angular_momentum_decays_at_its_rate(robot: Robot) -> None:
     task = AngularMomentumTask(1.0, 5.0)
     q, v = random_state(robot, 4, 0.05)

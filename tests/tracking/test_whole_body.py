@@ -1,6 +1,5 @@
 """Whole walks of TALOS in MuJoCo: exact, repeatable, true to the physics, safe."""
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -12,14 +11,9 @@ import qpsolvers
 from tracking.states import FRICTION, full_load, standing_controller
 
 from preview_walk import FootstepPlanner, Walk
-from preview_walk.errors import InvalidInput
 from preview_walk.robots.robot import Robot
 from preview_walk.tracking.gains import TrackingGains
-from preview_walk.tracking.qp.condensed_backend import CondensedBackend
-from preview_walk.tracking.qp.osqp_method import WarmOsqp
-from preview_walk.tracking.qp.problem import TickProblem
-from preview_walk.tracking.qp.safety import DAMPED_POSTURE, LAST_SOLUTION, SOLVED
-from preview_walk.tracking.qp.solution import Backend, Solution
+from preview_walk.tracking.qp.safety import SOLVED
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import Array, Foot
 
@@ -177,117 +171,6 @@ def test_speed_limits_hold_on_an_ideal_robot(talos: Robot) -> None:
         q = pin.integrate(talos.pin, q, dt * v)
         fastest = max(fastest, float(np.abs(v[6:]).max()))
     assert 0.49 <= fastest <= 0.5 + 1e-3
-
-
-class FailsNow:
-    """One solve in a hundred, drawn by a seeded generator, is replaced by a failure."""
-
-    def __init__(self, backend: Backend) -> None:
-        self.backend = backend
-        self.rng = np.random.default_rng(0)
-
-    def solve(self, problem: TickProblem) -> Solution:
-        solution = self.backend.solve(problem)
-        if self.rng.random() < 0.01:
-            return replace(solution, solved=False, status="injected")
-        return solution
-
-
-def test_a_walk_with_one_percent_of_failed_solves_does_not_fall(make_walk: MakeWalk) -> None:
-    walk = make_walk(3)
-    body = walk.walker.body
-    body.backend = FailsNow(body.backend)
-    record = walk.run().record()
-    assert not walk.fallen
-    assert body.failures >= 10
-    assert np.count_nonzero(record.qp_status == LAST_SOLUTION) == body.failures
-    assert np.abs(record.com - record.com_ref)[250:].max() <= 0.01
-
-
-def test_standing_survives_a_solver_that_never_works_again(make_walk: MakeWalk) -> None:
-    walk = make_walk(1)
-    walk.run(until=0.3)
-    body = walk.walker.body
-
-    class Dead:
-        def solve(self, problem: TickProblem) -> Solution:
-            raise RuntimeError("dead")
-
-    body.backend = Dead()
-    walk.run(until=1.2)
-    assert not walk.fallen
-    assert body.status == DAMPED_POSTURE
-    assert np.abs(walk.plant.v[6:]).max() < 0.5
-
-
-def test_a_walk_with_nan_in_one_measured_velocity_stops_and_says_so(make_walk: MakeWalk) -> None:
-    walk = make_walk(1)
-    walk.run(until=0.5)
-    sense = walk.plant.sense
-
-    def broken() -> None:
-        sense()
-        walk.plant.v[6 + walk.robot.joint_names.index("arm_left_3_joint")] = np.nan
-
-    walk.plant.sense = broken  # type: ignore[method-assign]
-    walk.run()
-    assert walk.fallen
-    assert walk.record().run.fall_reason == (
-        "the measured state must be finite, got nan for the velocity of joint 'arm_left_3_joint'."
-    )
-
-
-def test_a_walk_with_five_iterations_at_most_still_walks(make_walk: MakeWalk) -> None:
-    """What OSQP does not finish, the active-set method does."""
-    walk = make_walk(2)
-    walk.walker.body.backend = CondensedBackend(WarmOsqp(max_iterations=5))
-    record = walk.run().record()
-    assert not walk.fallen
-    assert (record.qp_status == SOLVED).all()
-
-
-class HoldHand:
-    """A task of one's own: a hand stays where it is in the world."""
-
-    rows = 3
-    weight = 10.0
-
-    def __init__(self, body: WholeBodyController) -> None:
-        self.hand = body.dynamics.frame("arm_right_7_link")
-        self.goal = self.hand.position.copy()
-
-    def update(self, dynamics: object, jacobian: Array, target: Array) -> None:
-        hand = self.hand
-        jacobian[:] = hand.rotation @ hand.jacobian[:3]
-        target[:] = 100.0 * (self.goal - hand.position)
-        target -= hand.rotation @ (20.0 * hand.velocity[:3] + hand.drift[:3])
-
-
-def test_a_task_of_ones_own(make_walk: MakeWalk) -> None:
-    errors = []
-    for own in (True, False):
-        walk = make_walk(1)
-        body = walk.walker.body
-        hold = HoldHand(body)
-        if own:
-            body.torques(full_load(walk.robot))  # also after the first tick
-            body.add_task(hold)
-        walk.run(until=1.5)  # the CoM shifts over the stance foot
-        errors.append(float(np.linalg.norm(hold.hand.position - hold.goal)))
-    assert errors[0] < 0.01 < errors[1]
-
-
-@pytest.mark.parametrize(("rows", "weight"), [(0, 1.0), (3, 0.0), (3, -1.0), (3, np.inf)])
-def test_a_task_that_cannot_be(talos: Robot, rows: int, weight: float) -> None:
-    class Odd(HoldHand):
-        pass
-
-    body = standing_controller(talos)
-    odd = Odd(body)
-    odd.rows, odd.weight = rows, weight
-    said = f"a task must have rows >= 1 and a weight > 0, got rows = {rows} and weight = {weight}."
-    with pytest.raises(InvalidInput, match=re.escape(said)):
-        body.add_task(odd)
 
 
 def test_the_momentum_task_is_there_when_it_has_a_weight(talos: Robot) -> None:

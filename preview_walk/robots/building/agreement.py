@@ -40,7 +40,7 @@ def disagreement(
         to_mujoco(q, v, data.qpos, data.qvel)
         mujoco.mj_fwdPosition(mj, data)
         mujoco.mj_fwdVelocity(mj, data)
-        pairs = _terms(mj, data, model, pin_data, q, v, soles)
+        pairs = _terms((mj, data), (model, pin_data), q, v, soles)
         for name, (ours, theirs) in pairs.items():
             scale = max(float(np.abs(ours).max()), 1e-3)
             gap = float(np.abs(ours - theirs).max()) / scale
@@ -49,15 +49,14 @@ def disagreement(
 
 
 def _terms(
-    mj: mujoco.MjModel,
-    data: mujoco.MjData,
-    model: pin.Model,
-    pin_data: pin.Data,
+    one: tuple[mujoco.MjModel, mujoco.MjData],
+    two: tuple[pin.Model, pin.Data],
     q: Array,
     v: Array,
     soles: Mapping[Foot, tuple[str, int]],
 ) -> dict[str, tuple[Array, Array]]:
     """Return MuJoCo's and Pinocchio's value of every term at a state."""
+    (mj, data), (model, pin_data) = one, two
     rotation = pin.Quaternion(q[3:7]).toRotationMatrix()
     # v_pin = turn @ v_mj; its rate of change adds a Coriolis term to the base's acceleration.
     turn = np.eye(model.nv)

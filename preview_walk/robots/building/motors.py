@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import mujoco
@@ -38,16 +38,7 @@ def joint_efforts(
     """
     mj, mass = tree.mj, float(tree.mj.body_subtreemass[base])
     moving = tree.joints_on(tree.below(base))
-    push: dict[int, tuple[float, float]] = {}
-    replaced = 0
-    for actuator in range(mj.nu):
-        joint = int(mj.actuator_trnid[actuator, 0])
-        if int(mj.actuator_trntype[actuator]) not in _JOINT or joint not in moving:
-            continue
-        low, high, torque = _range(mj, actuator)
-        replaced += not torque
-        before = push.get(joint, (0.0, 0.0))
-        push[joint] = (before[0] + low, before[1] + high)
+    push, replaced = _actuated(mj, moving)
     if mj.nu == 0:
         push = {j: (-np.inf, np.inf) for j in moving if implied or mj.jnt_actfrclimited[j]}
     push.update({joint: (-effort, effort) for joint, effort in said.items()})
@@ -79,6 +70,26 @@ def joint_efforts(
             + ", ".join(assumed)
         )
     return efforts, notes
+
+
+def _actuated(
+    mj: mujoco.MjModel, moving: Collection[int]
+) -> tuple[dict[int, tuple[float, float]], int]:
+    """Return the lowest and highest torque (N·m) of the joints that actuators drive, by joint id.
+
+    And how many of these actuators were no torque motors. `moving`: the joints that count.
+    """
+    push: dict[int, tuple[float, float]] = {}
+    replaced = 0
+    for actuator in range(mj.nu):
+        joint = int(mj.actuator_trnid[actuator, 0])
+        if int(mj.actuator_trntype[actuator]) not in _JOINT or joint not in moving:
+            continue
+        low, high, torque = _range(mj, actuator)
+        replaced += not torque
+        before = push.get(joint, (0.0, 0.0))
+        push[joint] = (before[0] + low, before[1] + high)
+    return push, replaced
 
 
 def with_driven_legs(

@@ -53,20 +53,9 @@ def rebuild(
             )
         bodies[body] = made
         joints = [] if body == base else [j for j in tree.joints_on([body]) if j not in locked]
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, mj.body_iquat[body])
-        axes = rotation.reshape(3, 3)
-        mass, moments, turn, flaw = usable_inertia(
-            tree.name(body),
-            float(mj.body_mass[body]),
-            axes @ np.diag(mj.body_inertia[body]) @ axes.T,
-            bool(joints),
-        )
+        flaw = _set_inertia(tree, made, body, bool(joints))
         if flaw:
             flaws.setdefault(flaw, []).append(tree.name(body))
-        made.explicitinertial = True
-        made.mass, made.ipos, made.inertia = mass, mj.body_ipos[body], moments
-        made.iquat = quaternion(turn)
         for joint in joints:
             _add_joint(tree, made, joint)
             if mj.jnt_stiffness[joint] > 0.0:
@@ -77,6 +66,24 @@ def rebuild(
     if springs:
         notes.append(f"joint springs left out: {', '.join(springs)}")
     return spec, notes
+
+
+def _set_inertia(tree: Tree, made: mujoco.MjsBody, body: int, moving: bool) -> str:
+    """Copy the inertia of a body (id), made usable; return what was wrong with it, or "".
+
+    `moving`: whether the body hangs on a joint of its own.
+    """
+    mj = tree.mj
+    rotation = np.empty(9)
+    mujoco.mju_quat2Mat(rotation, mj.body_iquat[body])
+    axes = rotation.reshape(3, 3)
+    inertia = axes @ np.diag(mj.body_inertia[body]) @ axes.T
+    name, mass = tree.name(body), float(mj.body_mass[body])
+    mass, moments, turn, flaw = usable_inertia(name, mass, inertia, moving)
+    made.explicitinertial = True
+    made.mass, made.ipos, made.inertia = mass, mj.body_ipos[body], moments
+    made.iquat = quaternion(turn)
+    return flaw
 
 
 def _add_joint(tree: Tree, body: mujoco.MjsBody, joint: int) -> None:

@@ -60,10 +60,9 @@ def add_shapes(
             colour = None
             if material is not None:
                 colour = _rgba(material) or materials.get(str(material.get("name")))
-            geometry = element.find("geometry")
-            shape = next(iter(geometry), None) if geometry is not None else None
-            if shape is not None:
-                _add_shape(urdf, spec, body, element, shape, colour, missing)
+            lost = _add_shape(urdf, spec, body, element, colour)
+            if lost is not None:
+                missing.append(lost)
     return missing
 
 
@@ -72,11 +71,13 @@ def _add_shape(
     spec: mujoco.MjSpec,
     body: mujoco.MjsBody,
     element: Element,
-    shape: Element,
     colour: tuple[float, ...] | None,
-    missing: list[str],
-) -> None:
-    """Add one visual or collision element to a body."""
+) -> str | None:
+    """Add one visual or collision element to a body; return the mesh that is missing, if one is."""
+    geometry = element.find("geometry")
+    shape = next(iter(geometry), None) if geometry is not None else None
+    if shape is None:
+        return None
     position, rotation = origin(element)
     quat = quaternion(rotation)
     if shape.tag == "mesh":
@@ -84,18 +85,17 @@ def _add_shape(
         file = mesh_file(filename, urdf.path)
         scale = vector(shape, "scale", (1.0, 1.0, 1.0))
         pieces = [] if file is None else read_mesh(file)
-        if not pieces:
-            missing.append(filename)
         for number_, piece in enumerate(pieces):
             name = f"{filename}:{number_}:{scale}"
             geom = add_piece(spec, body, name, piece, scale)
             if geom is not None:
                 finish(geom, position, quat, piece.rgba or colour or GREY)
-        return
+        return None if pieces else filename
     size = _size(shape)
     if size is not None and size[0] > 0.0:
         kind = _KINDS[shape.tag]
         finish(body.add_geom(type=kind, size=size), position, quat, colour or GREY)
+    return None
 
 
 def check_shapes(urdf: UrdfFile) -> None:

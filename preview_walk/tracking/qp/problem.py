@@ -83,6 +83,7 @@ class TickProblem:
         contacts: Sequence[Foot],
         tasks: Sequence[Task],
         posture: PostureTask,
+        *,
         wrench_weight: float,
         friction: float,
     ) -> None:

@@ -116,5 +116,5 @@ def solve_free(e: CondensedQP) -> None:
 
 def test_in_the_air_there_is_nothing_left_to_solve(talos: Robot) -> None:
     p = busy_problem(talos, 6)
-    air = TickProblem(talos, (), p.tasks, p.posture, 1e-3, 0.8)
+    air = TickProblem(talos, (), p.tasks, p.posture, wrench_weight=1e-3, friction=0.8)
     assert CondensedQP(air, ()).size == 0

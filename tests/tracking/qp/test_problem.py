@@ -124,6 +124,8 @@ def test_limits_are_this_law(talos: Robot) -> None:
     braked = LIMIT_RATE**2 * (talos.q_upper - q[7:]) - 2.0 * LIMIT_RATE * v[6:]
     slowest = LIMIT_RATE * (-talos.v_limit - v[6:])
     np.testing.assert_allclose(p.limits[1, p.n :], np.clip(braked, slowest, fastest))
+    caught = LIMIT_RATE**2 * (talos.q_lower - q[7:]) - 2.0 * LIMIT_RATE * v[6:]
+    np.testing.assert_allclose(p.limits[0, p.n :], np.clip(caught, slowest, fastest))
     np.testing.assert_array_equal(p.limits[:, : p.n], [-talos.effort, talos.effort])
 
 
@@ -169,11 +171,12 @@ def test_the_load_is_shared_as_the_wanted_zmp_lies(talos: Robot) -> None:
     left, right = (body.wrench(foot) for foot in BOTH)
     assert left[2] == pytest.approx(right[2], rel=1e-3)
     assert left[2] + right[2] == pytest.approx(9.81 * talos.mass, rel=1e-3)
-    lever = body.dynamics.com[2] / 9.81
-    body.com.acceleration = np.array([0.0, -0.25 * talos.step_width / lever, 0.0])
-    body.torques(full_load(talos))
-    left, right = (body.wrench(foot) for foot in BOTH)
-    assert left[2] / (left[2] + right[2]) == pytest.approx(0.75, abs=0.02)
+    for up in (4.0, -4.0, 0.0):  # m/s^2; the weight that the ZMP bears grows with it
+        lever = body.dynamics.com[2] / (9.81 + up)
+        body.com.acceleration = np.array([0.0, -0.25 * talos.step_width / lever, up])
+        body.torques(full_load(talos))
+        left, right = (body.wrench(foot) for foot in BOTH)
+        assert left[2] / (left[2] + right[2]) == pytest.approx(0.75, abs=0.02)
     assert np.abs([left[3:5], right[3:5]]).max() < 10.0
 
 
