@@ -13,7 +13,7 @@ from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
-from preview_walk.footsteps.laying import on_plane, relay, swung
+from preview_walk.footsteps.laying import ROUGH, UNEVEN, on_plane, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.planar import wrap
 from preview_walk.geometry.poses import pose_at, yaw_of
@@ -152,13 +152,18 @@ class Walker:
         """Walk by another plan from now on: the one place where plans are replaced."""
         self.pattern.follow(plan)
 
-    def laid(self, plan: FootstepPlan) -> FootstepPlan:
-        """Return a plan with its new steps on the ground, as far as that is known."""
+    def laid(self, plan: FootstepPlan, uneven: float = UNEVEN) -> FootstepPlan:
+        """Return a plan with its new steps on the ground, as far as that is known.
+
+        Args:
+            plan: the walk to come.
+            uneven: see `relay`.
+        """
         if self.blind:
             return swung(plan, self.plan, CAREFUL)
         if self.ground is None:
             return plan
-        return relay(plan, self.plan, self.ground, gait_limits(self.robot))
+        return relay(plan, self.plan, self.ground, gait_limits(self.robot), uneven)
 
     def change(self, plan: FootstepPlan, t: float) -> None:
         """Walk by a plan that somebody else made, if it fits to where the feet are.
@@ -247,7 +252,7 @@ class Walker:
         decision = recover(situation, self._recovery, self._limits)
         self._recovery = decision.memory
         if decision.plan is not None:
-            self.follow(self.laid(decision.plan))
+            self.follow(self.laid(decision.plan, ROUGH))
             self.pattern.rejoin(t, state.com[:2])
 
     def _feel(
