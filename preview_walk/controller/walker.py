@@ -16,7 +16,7 @@ from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
-from preview_walk.footsteps.laying import relay, swung
+from preview_walk.footsteps.laying import ROUGH, UNEVEN, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
 from preview_walk.pattern.walker_model import WalkerModel
@@ -125,13 +125,13 @@ class Walker:
         """Walk by another plan from now on: the one place where plans are replaced."""
         self.pattern.follow(plan)
 
-    def laid(self, plan: FootstepPlan) -> FootstepPlan:
-        """Return a plan with its new steps on the ground, as far as that is known."""
+    def laid(self, plan: FootstepPlan, uneven: float = UNEVEN) -> FootstepPlan:
+        """Return a plan with its new steps on the ground, if known; `uneven`: see `relay`."""
         if self.blind:
             return swung(plan, self.plan, CAREFUL)
         if self.ground is None:
             return plan
-        return relay(plan, self.plan, self.ground, gait_limits(self.robot))
+        return relay(plan, self.plan, self.ground, gait_limits(self.robot), uneven)
 
     def change(self, plan: FootstepPlan, t: float) -> None:
         """Walk by a plan that somebody else made, if it fits to where the feet are.
@@ -230,7 +230,7 @@ class Walker:
             return
         plan = self.balance.answer(t, self.pattern, self.feet, dynamics)
         if plan is not None:
-            self.follow(self.laid(plan))
+            self.follow(self.laid(plan, ROUGH))
             self.pattern.rejoin(t, dynamics.com[:2])
 
     def _set_tasks(self) -> None:

@@ -25,6 +25,10 @@ MARGIN = 0.02
 ASIDE = 0.008
 """And at least so far (m) beside edges that are higher."""
 
+SUNK = 0.005
+"""A sole that lies on uneven ground may be so deep (m) in its highest points at lift and landing,
+where it has not risen yet: what a foothold is allowed to be uneven, and its rim."""
+
 LEAST_HEIGHT = 0.04
 """Height (m) of an apex above the higher sole, at least, that every swing is taken to have."""
 
@@ -83,7 +87,7 @@ def clearing_shape(start: Array, end: Array, ground: Ground, sole: Sole) -> Swin
         clear = int((room > -1e-3).argmax())
         if room[clear] > -1e-3:
             return SwingShape(*shapes[clear].tolist())
-        if room.max() > best:
+        if room.max() > best + SUNK:  # a gentler shape is as good
             best, found = room.max(), SwingShape(*shapes[int(room.argmax())].tolist())
     return found
 
@@ -105,7 +109,8 @@ def _room(shapes: Array, z0: float, z1: float, least: Array) -> Array:
     risen, fallen = _share(_TIMES / apex), _share((_TIMES - apex) / (1.0 - apex))
     top = max(z0, z1) + height
     path = z0 + (top - z0) * risen + (z1 - top) * fallen
-    room: Array = path - np.interp(way, _PLACES, least) - MARGIN * (risen - fallen)
+    high = risen - fallen  # 0 at lift and landing, 1 at the apex
+    room: Array = path - np.interp(way, _PLACES, least) - MARGIN * high + SUNK * (1.0 - high) ** 8
     return np.asarray(room.min(axis=1))
 
 

@@ -80,30 +80,41 @@ def lay_on(
 
 
 def relay(
-    plan: FootstepPlan, current: FootstepPlan, ground: Ground, limits: GaitLimits
+    plan: FootstepPlan,
+    current: FootstepPlan,
+    ground: Ground,
+    limits: GaitLimits,
+    uneven: float = UNEVEN,
 ) -> FootstepPlan:
     """Return a plan with those soles on the ground that the current plan does not have.
 
-    What has no room for a sole is stepped on at its highest: a step after a push must land.
+    What has no room for a sole is stepped on at its highest: a step after a push must land. A swing
+    that lands elsewhere than the current plan has it keeps its shape: it may be under way.
 
     Args:
         plan: the walk to come.
         current: the walk up to now, which lies on the ground.
         ground: what it is to walk on.
         limits: bounds of a step, and the sole sizes.
+        uneven: how far (m) the ground under a sole may be from its plane before the sole moves.
     """
     known = {id(step) for step in current}
     first = next((k for k, s in enumerate(plan) if k > 1 and id(s) not in known), len(plan))
     if first == len(plan):
         return plan
-    layer = _Layer(ground, limits, 0.0)
+    layer = _Layer(ground, limits, 0.0, uneven)
     stood: dict[Foot, Array] = {step.foot: step.pose for step in plan[:first]}
+    shapes = {(step.foot, step.lift): step.swing for step in current.steps}
     steps: list[Footstep] = []
     for step in plan[first:]:
         pose = layer.place(step, stood[other(step.foot)])
         if pose is None:
             pose = layer.on_top(step)
-        steps.append(layer.laid(step, pose, stood[step.foot]))
+        shape = shapes.get((step.foot, step.lift))
+        if shape is None:
+            steps.append(layer.laid(step, pose, stood[step.foot]))
+        else:
+            steps.append(replace(step, pose=pose, swing=shape))
         stood[step.foot] = pose
     return FootstepPlan([*plan[:first], *steps], plan.weight_shift)
 
@@ -157,6 +168,7 @@ class _Layer:
     ground: Ground
     limits: GaitLimits
     overhang: float
+    uneven: float = UNEVEN
 
     @property
     def sole(self) -> Sole:
@@ -170,18 +182,16 @@ class _Layer:
         `stance`: pose (4, 4) of the other sole, of which a moved one stays in reach.
         """
         goal = heading_of(step.pose)
-        here = sole_on(goal, self.ground, self.sole)
-        if here is not None:
-            return here
+        (plane,), (least,) = _fits([goal], self.ground, self.sole)
+        if least <= self.uneven:
+            return _lying(goal, plane, least)
         places = [compose(goal, *move) for move in _MOVES.tolist()]
         planes, uneven = _fits(places, self.ground, self.sole)
         far = np.hypot(*_MOVES.T)
-        for k in [*np.flatnonzero(uneven <= UNEVEN), *np.argsort(uneven + 0.02 * far)]:
+        for k in [*np.flatnonzero(uneven <= self.uneven), *np.argsort(uneven + 0.02 * far)]:
             if uneven[k] > ROUGH:
                 break
-            pose = _lying(places[k], planes[k])
-            if uneven[k] > UNEVEN:
-                pose[2, 3] += uneven[k]  # it lies on the highest points
+            pose = _lying(places[k], planes[k], uneven[k])
             if stance is None or self.limits.problem(step.foot, stance, pose) is None:
                 return pose
         return None
@@ -218,10 +228,12 @@ def _fits(places: Sequence[Heading], ground: Ground, sole: Sole) -> tuple[Array,
     return planes, np.abs(planes @ columns.T - heights).max(axis=1)
 
 
-def _lying(place: Heading, plane: Array) -> Array:
-    """Return the pose (4, 4) of a sole at a place, on a plane (3,) as of `_fits`."""
+def _lying(place: Heading, plane: Array, uneven: float = 0.0) -> Array:
+    """Return the pose (4, 4) of a sole at a place, on a plane (3,) and so uneven as of `_fits`."""
     x, y, yaw = place
     z, ahead, left = plane.tolist()
+    if uneven > UNEVEN:
+        z += uneven  # it lies on the highest points
     c, s = cos(yaw), sin(yaw)
     normal = np.array((-ahead * c + left * s, -ahead * s - left * c, 1.0))
     normal /= np.linalg.norm(normal)

@@ -9,7 +9,7 @@ import pytest
 
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.clearing import ASIDE, LEAST_HEIGHT, clearing_shape
-from preview_walk.footsteps.laying import lay_on, relay
+from preview_walk.footsteps.laying import UNEVEN, lay_on, relay
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
@@ -57,8 +57,8 @@ def test_no_point_of_the_sole_meets_the_ground_on_its_way(name: str, turn: float
     ground = GROUNDS[name]
     plan = lay_on(PLANNER.generate_footsteps(10, turn=turn), ground, LIMITS)
     for step in plan.steps:
-        # What the shapes guarantee is a millimetre; the margin is theirs around the apex.
-        assert room(swing_of(plan, step, LEAST_HEIGHT), ground) > -1e-3
+        # Near its ends a sole is as deep in the highest points as footholds may be uneven.
+        assert room(swing_of(plan, step, LEAST_HEIGHT), ground) > -UNEVEN - 1e-3
 
 
 def test_edges_shape_the_swing_and_level_ground_does_not() -> None:
