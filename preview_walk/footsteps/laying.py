@@ -5,16 +5,17 @@ A foothold across an edge moves to the nearest place where the whole sole lies o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import cos, sin
 
 import numpy as np
 
-from preview_walk.arguments import instance_of, number_from_zero
+from preview_walk.arguments import angle, instance_of, number_from_zero
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.clearing import clearing_shape
+from preview_walk.footsteps.findings import Finding
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
@@ -32,6 +33,9 @@ nearest fit: what a sole of rubber takes up."""
 ROUGH = 0.02
 """Where no place is plane, the least uneven one will do up to this (m): no edge is so low that a
 sole could not lie across it."""
+
+OFF = 0.01
+"""A sole whose height, or whose ends', differ from the ground's by less (m) lies on it."""
 
 REACH = 0.2
 """A foothold may move this far (m) along its heading, and half as far aside."""
@@ -159,6 +163,33 @@ def sole_on(place: Heading, ground: Ground, sole: Sole) -> Array | None:
     """
     planes, uneven = _fits([place], ground, sole)
     return _lying(place, planes[0]) if uneven[0] <= UNEVEN else None
+
+
+def ground_findings(plan: FootstepPlan, ground: Ground, sole: Sole) -> Iterator[Finding]:
+    """Yield the soles of a plan that do not lie on a ground: above, below, tilted, across an edge.
+
+    Args:
+        plan: the walk.
+        ground: what it is to walk on.
+        sole: half sizes of the soles, m.
+    """
+    for number, step in enumerate(plan, -1):
+        (plane,), (uneven,) = _fits([heading_of(step.pose)], ground, sole)
+        here = _lying(heading_of(step.pose), plane, uneven)
+        rise = float(step.pose[2, 3] - here[2, 3])
+        tilt = float(np.arccos(np.clip(step.pose[:3, 2] @ here[:3, 2], -1.0, 1.0)))
+        if uneven > ROUGH:
+            corners = sole.corners(step.pose)
+            depth = float(np.ptp(ground.height(corners[:, 0], corners[:, 1])))
+            what = f"stands across an edge of the ground, {depth:.3f} m deep"
+        elif abs(rise) > OFF:
+            what = f"is {abs(rise):.3f} m {'above' if rise > 0.0 else 'below'} the ground"
+        elif tilt * sole.half_length > OFF:
+            what = f"is tilted by {angle(tilt)} against the ground"
+        else:
+            continue
+        who = f"step {number}" if number > 0 else f"the {step.foot} sole at the start"
+        yield Finding(step.land, f"{who} {what}", max(number, 0) or None, "ground")
 
 
 @dataclass(frozen=True)

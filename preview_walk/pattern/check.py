@@ -15,11 +15,13 @@ from numpy.typing import ArrayLike
 from preview_walk.arguments import instance_of, real_array
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.findings import Finding, step_findings
+from preview_walk.footsteps.laying import ground_findings
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.geometry.support import support_margin, support_polygon
 from preview_walk.pattern.zmp_reference import zmp_reference
+from preview_walk.terrain.ground import Ground
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, Array
 
 OUTSIDE = 1e-6
@@ -48,6 +50,8 @@ def check_plan(
     times: ArrayLike | None = None,
     zmp: ArrayLike | None = None,
     com: ArrayLike | None = None,
+    *,
+    ground: Ground | None = None,
 ) -> tuple[Finding, ...]:
     """Return what is wrong with a plan and its references, in the order of time; () if nothing.
 
@@ -57,12 +61,15 @@ def check_plan(
         times: increasing times (N,) of the references below, s.
         zmp: ZMP reference (N, 2), m; None checks the plan's own.
         com: CoM reference (N, 2) or (N, 3), m; None checks none.
+        ground: on which the soles are to lie; None does not look at their heights and tilts.
 
     Raises:
         InvalidInput: no plan, a reference without times, or arrays that do not fit each other.
     """
     plan, limits = as_plan(plan), instance_of(limits, GaitLimits, "limits")
     findings = [*step_findings(plan, limits)]
+    if ground is not None:
+        findings += ground_findings(plan, ground, limits.sole)
     if times is None:
         if zmp is not None or com is not None:
             raise InvalidInput(

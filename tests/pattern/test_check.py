@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.laying import lay_on
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.footsteps.stride import Stride
@@ -14,6 +15,8 @@ from preview_walk.geometry.poses import pose_at
 from preview_walk.geometry.support import Sole
 from preview_walk.pattern.check import check_plan, require_walkable
 from preview_walk.pattern.zmp_reference import zmp_reference
+from preview_walk.terrain.ground import FlatGround, Plane
+from preview_walk.terrain.shapes import stairs
 
 LIMITS = GaitLimits.for_leg(0.87, 0.2, Sole(0.1, 0.06))
 PLANNER = FootstepPlanner(0.25, 0.2, 0.7)
@@ -163,3 +166,23 @@ def test_references_need_times_and_shapes():
         check_plan(PLAN, LIMITS, TIMES, ZMP[:3])
     with raises("com must have shape (1, 2) or (1, 3), got (1, 4)."):
         check_plan(PLAN, LIMITS, [0.0], com=np.zeros((1, 4)))
+
+
+def test_soles_that_do_not_lie_on_the_ground():
+    """Above, below, tilted, across an edge, each in its words; a laid plan has none of them."""
+    planner = FootstepPlanner(0.3, 0.2, 1.0)
+    plan = planner.generate_footsteps(4)
+    assert texts(plan, LIMITS, ground=FlatGround()) == []
+    assert texts(plan, LIMITS, ground=FlatGround(0.05))[0] == (
+        "the left sole at the start is 0.050 m below the ground"
+    )
+    down = stairs(-0.1, 2.0, 1, begin=0.42)
+    assert texts(plan, LIMITS, ground=down)[:2] == [
+        "step 2 stands across an edge of the ground, 0.100 m deep",
+        "step 3 is 0.100 m above the ground",
+    ]
+    tilted = Plane(0.0, np.tan(np.radians(9.0)))
+    first = texts(plan, LIMITS, ground=tilted)[0]
+    assert "the left sole at the start is tilted by 0.157 rad" in first
+    for ground in (down, tilted, FlatGround(0.05)):
+        assert texts(lay_on(plan, ground, LIMITS), LIMITS, ground=ground) == []
