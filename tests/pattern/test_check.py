@@ -176,7 +176,7 @@ def test_soles_that_do_not_lie_on_the_ground():
     assert texts(plan, LIMITS, ground=FlatGround(0.05))[0] == (
         "the left sole at the start is 0.050 m below the ground"
     )
-    down = stairs(-0.1, 2.0, 1, begin=0.42)
+    down = stairs(-0.1, 2.0, 1, begin=0.62)
     assert texts(plan, LIMITS, ground=down)[:2] == [
         "step 2 stands across an edge of the ground, 0.100 m deep",
         "step 3 is 0.100 m above the ground",
