@@ -16,10 +16,15 @@ from preview_walk.analysis import plots
 
 @pytest.fixture(autouse=True)
 def signals_are_not_ignored() -> Iterator[None]:
-    """Undo `nohup` for the tests: the command leaves a signal alone that was ignored before it."""
+    """Undo `nohup` and `&`: the command leaves a signal alone that was ignored before it."""
+    usual = {
+        signal.SIGHUP: signal.SIG_DFL,
+        signal.SIGTERM: signal.SIG_DFL,
+        signal.SIGINT: signal.default_int_handler,
+    }
     before = {
-        number: signal.signal(number, signal.SIG_DFL)
-        for number in (signal.SIGHUP, signal.SIGTERM)
+        number: signal.signal(number, handler)
+        for number, handler in usual.items()
         if signal.getsignal(number) is signal.SIG_IGN
     }
     yield

@@ -94,4 +94,10 @@ def test_a_ground_is_read_and_walked_on(simulation: Simulation, out: Path) -> No
     assert run(out, "--ground", "slope:degrees=5") == 0
     ground = simulation.calls[0]["ground"]
     assert ground.slabs == pw.slope(5.0).slabs
+    assert "blind" not in simulation.calls[0]
     assert run(out, "--ground", "slope:depth=5") == 2
+
+
+def test_a_robot_can_be_blind(simulation: Simulation, out: Path) -> None:
+    assert run(out, "--ground", "blocks", "--blind") == 0
+    assert simulation.calls[0]["blind"] is True
