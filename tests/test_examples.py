@@ -13,6 +13,9 @@ ELSEWHERE = ("video", "preview_horizon", "walking_laws", "active_suspension", "s
 """A film renders for minutes without a graphics card; `test_video.py` tests what it does. The
 others' output is compared with their pages by `test_documents.py`."""
 
+SHORTER = {"ground": ("--ground", "stairs:rise=0.15,tread=0.28,count=2", "--steps", "6")}
+"""Arguments of examples that do the same several times over."""
+
 EXAMPLES = sorted(
     path
     for path in (Path(__file__).parents[1] / "examples").glob("*.py")
@@ -25,7 +28,7 @@ def test_an_example_runs(example: Path, tmp_path: Path) -> None:
     """In an empty folder; it says something on the way."""
     environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
     run = subprocess.run(
-        [sys.executable, str(example)],
+        [sys.executable, str(example), *SHORTER.get(example.stem, ())],
         cwd=tmp_path,
         env=environment,
         capture_output=True,

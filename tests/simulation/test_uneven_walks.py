@@ -53,14 +53,14 @@ def test_commands_are_laid_on_the_ground_as_they_come(talos: Robot) -> None:
 
 
 def test_a_step_after_a_push_lands_on_the_ground(talos: Robot) -> None:
-    ground = slope(6.0)
+    ground = slope(6.0, begin=0.12)
     plan = pw.FootstepPlanner(0.2, talos.step_width, 0.9).generate_footsteps(5, ramp=1)
     push = pw.Push(4.1, 0.1, (0.0, 400.0, 0.0))
     record = pw.simulate(talos, plan, ground=ground, pushes=[push])
     assert not record.run.fell
     assert len(record.plans) > 1  # it answered by other steps
     last = record.plans[-1]
-    for pose in last.pose[2:]:
+    for pose in last.pose[-3:]:  # beyond the crease, where soles may lie across it
         assert pose[2, 3] == pytest.approx(float(ground.height(pose[0, 3], pose[1, 3])), abs=1e-6)
         assert pose[:3, 2] == pytest.approx(ground.normal(pose[0, 3], pose[1, 3]), abs=1e-6)
 
