@@ -41,7 +41,7 @@ class Walker:
     """Walks a robot along a live plan: call `tick` with the measured state, `follow` another plan.
 
     Attributes:
-        robot, gains, ground: what it was made of.
+        robot, gains, ground, blind: what it was made of.
         swing_height: of a swing's apex above the higher of its two soles, m.
         weight: of the robot, N.
         body: the whole-body controller; add tasks of one's own to it.
@@ -76,7 +76,8 @@ class Walker:
             friction: Coulomb friction between soles and ground.
             gains: weights and gains of the tracker; None takes the defaults.
             solver: "osqp", "daqp" or another backend of qpsolvers.
-            swing_height: m; None takes `SWING_HEIGHT` of the leg's length.
+            swing_height: m; None takes `SWING_HEIGHT` of the leg's length, or
+                `BLIND_SWING_HEIGHT`.
             com_generator: "preview", "mpc" or "dcm".
             ground: what all steps are laid on; None takes footholds as they are given.
             blind: whether the ground is what the soles feel, wherever the plan has them.

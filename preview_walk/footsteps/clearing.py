@@ -65,7 +65,9 @@ def _share(u: Array) -> Array:
 
 
 def clearing_shape(start: Array, end: Array, ground: Ground, sole: Sole) -> SwingShape:
-    """Return the gentlest shape of a swing that clears the ground; the highest where none does.
+    """Return the gentlest shape of a swing that clears the ground.
+
+    Where none does it is the one that comes nearest to it.
 
     Args:
         start: sole pose (4, 4) at lift, on the ground.

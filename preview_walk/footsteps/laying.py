@@ -102,8 +102,7 @@ def relay(
         limits: bounds of a step, and the sole sizes.
         uneven: how far (m) the ground under a sole may be from its plane before the sole moves.
     """
-    known = {id(step) for step in current}
-    first = next((k for k, s in enumerate(plan) if k > 1 and id(s) not in known), len(plan))
+    first = _first_new(plan, current)
     if first == len(plan):
         return plan
     layer = _Layer(ground, limits, 0.0, uneven)
@@ -145,24 +144,17 @@ def on_plane(plan: FootstepPlan, foot: Foot, t: float, plane: Plane) -> Footstep
 
 def swung(plan: FootstepPlan, current: FootstepPlan, shape: SwingShape) -> FootstepPlan:
     """Return the plan whose plain swings that the current plan does not have are of this shape."""
-    known = {id(step) for step in current}
-    first = next((k for k, s in enumerate(plan) if k > 1 and id(s) not in known), len(plan))
+    first = _first_new(plan, current)
     if first == len(plan):
         return plan
     later = [replace(s, swing=shape) if s.swing == PLAIN else s for s in plan[first:]]
     return FootstepPlan([*plan[:first], *later], plan.weight_shift)
 
 
-def sole_on(place: Heading, ground: Ground, sole: Sole) -> Array | None:
-    """Return the pose (4, 4) of a sole that lies on the ground at a place, or None across an edge.
-
-    Args:
-        place: x, y (m) and heading (rad) of the sole's centre.
-        ground: what it lies on.
-        sole: half sizes, m.
-    """
-    planes, uneven = _fits([place], ground, sole)
-    return _lying(place, planes[0]) if uneven[0] <= UNEVEN else None
+def _first_new(plan: FootstepPlan, current: FootstepPlan) -> int:
+    """Return the index of the first step that the current plan does not have, or the length."""
+    known = {id(step) for step in current}
+    return next((k for k, s in enumerate(plan) if k > 1 and id(s) not in known), len(plan))
 
 
 def ground_findings(plan: FootstepPlan, ground: Ground, sole: Sole) -> Iterator[Finding]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from math import atan2
 
 import mujoco
 import numpy as np
@@ -15,7 +14,7 @@ from preview_walk.geometry.poses import rpy_of
 from preview_walk.robots.finding.tree import Tree
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.terrain.height_field import HeightField
-from preview_walk.terrain.slabs import STEEPEST, Slab, SlabGround
+from preview_walk.terrain.slabs import DEPTH, STEEPEST, Slab, SlabGround
 from preview_walk.types import FEET, Array, Foot
 
 SAMPLED = 0.02
@@ -92,7 +91,7 @@ def scene_ground(tree: Tree, feet: dict[int, Foot]) -> tuple[Ground, float]:
         return FlatGround(flat[0].z), least
     fields = tuple(_field(tree, geom) for geom, slab in slabs.items() if slab is None)
     lows = [slab.z for slab in flat] + [float(field.heights.max()) for field in fields]
-    return SceneGround(SlabGround(tuple(flat), min(lows) - 1.0), fields), least
+    return SceneGround(SlabGround(tuple(flat), min(lows) - DEPTH), fields), least
 
 
 def _faces_up(tree: Tree, geom: int) -> bool:
@@ -143,7 +142,6 @@ def _slab(tree: Tree, geom: int) -> Slab | None:
     # A slab's extents are those of its picture on the level, along its heading and beside it.
     length = half[0] * float(np.hypot(*pose[:2, 0]))
     width = half[1] * float(np.hypot(*pose[:2, 1]))
-    assert abs(yaw - atan2(pose[1, 0], pose[0, 0])) < 1e-9
     x, y, z = pose[:3, 3].tolist()
     return Slab(x, y, z, length, width, yaw, pitch, roll)
 
