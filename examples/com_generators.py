@@ -41,12 +41,14 @@ def main() -> None:
     """Walk, print the table and draw how CoM and ZMP go."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", default="com_generators.png", help="the picture to write")
-    out = parser.parse_args().out
+    parser.add_argument("--steps", type=int, default=12, help="of the walk; half of it is pushed")
+    given = parser.parse_args()
+    out = given.out
 
     robot = pw.load_robot("talos")
     planner = pw.FootstepPlanner(step_length=0.25, step_width=robot.step_width, step_time=0.9)
-    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (12, 6))
-    push = pw.Push(short.steps[3].lift + 0.2, DURATION, (FORCE, 0.0, 0.0))
+    plan, short = (planner.generate_footsteps(n, ramp=2) for n in (given.steps, given.steps // 2))
+    push = pw.Push(short.steps[-3].lift + 0.2, DURATION, (FORCE, 0.0, 0.0))
     figure = Figure(figsize=(11, 9), layout="constrained")
     sideways, forward, pushed = figure.subplots(3, 1)
     title = "walk: CoM     ZMP off plan   off generator  tick ms median, p99"

@@ -108,6 +108,25 @@ from .simulation.plant import Plant as Plant
 from .simulation.world import World as World
 from .simulation.scene import Scene as Scene
 
+# The robot as it is: sensors, motors, a model that is not quite it; and the estimator.
+from .reality.realism import Realism as Realism
+from .reality.realism import read_realism as read_realism
+from .reality.sensors import Encoders as Encoders
+from .reality.sensors import Imu as Imu
+from .reality.sensors import SoleSensors as SoleSensors
+from .reality.motors import Motors as Motors
+from .reality.mismatch import Mismatch as Mismatch
+from .reality.mismatch import Payload as Payload
+from .reality.faults import Fault as Fault
+from .simulation.real_world import RealWorld as RealWorld
+from .estimation.base_filter import BaseFilter as BaseFilter
+from .estimation.base_filter import FilterNoise as FilterNoise
+from .estimation.estimator import Estimate as Estimate
+from .estimation.estimator import Estimator as Estimator
+from .estimation.estimator import SensorNoise as SensorNoise
+from .estimation.measurement import Measurement as Measurement
+from .estimation.sole_forces import ForceNoise as ForceNoise
+
 # The ground.
 from .footsteps.clearing import clearing_shape as clearing_shape
 from .footsteps.swing_shape import SwingShape as SwingShape
@@ -132,6 +151,7 @@ from .terrain.slabs import SlabGround as SlabGround
 # Records, figures, plots, films.
 from .record.record import Record as Record
 from .record.run_facts import RunFacts as RunFacts
+from .record.sensed import Sensed as Sensed
 from .record.plan_log import PlanLog as PlanLog
 from .record.plan_log import PlanRevision as PlanRevision
 from .record.summary import Summary as Summary

@@ -9,6 +9,7 @@ from preview_walk.arguments import function_of
 from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.pattern.check import require_walkable
+from preview_walk.reality.realism import Realism
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import Command
@@ -36,6 +37,7 @@ class Settings(TypedDict, total=False):
     com_generator: str
     ground: Ground | None
     blind: bool
+    realism: Realism | None
     on_tick: Callable[[Walk], None] | None
 
 

@@ -13,7 +13,10 @@ ELSEWHERE = ("video", "preview_horizon", "walking_laws", "active_suspension", "s
 """A film renders for minutes without a graphics card; `test_video.py` tests what it does. The
 others' output is compared with their pages by `test_documents.py`."""
 
-SHORTER = {"ground": ("--ground", "stairs:rise=0.15,tread=0.28,count=2", "--steps", "6")}
+SHORTER = {
+    "com_generators": ("--steps", "6"),
+    "ground": ("--ground", "stairs:rise=0.15,tread=0.28,count=2", "--steps", "6"),
+}
 """Arguments of examples that do the same several times over."""
 
 EXAMPLES = sorted(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from preview_walk.controller.feet import Feet
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.support import Sole
@@ -16,12 +18,7 @@ from preview_walk.stabilizer.com_feedback import (
     Support,
     com_feedback,
 )
-from preview_walk.stabilizer.disturbance import (
-    ROUGH_SMOOTHING_TIME,
-    SMOOTHING_TIME,
-    Disturbance,
-    observe,
-)
+from preview_walk.stabilizer.disturbance import Disturbance, leaning, observe, steady
 from preview_walk.stabilizer.recovery import RecoveryMemory, early_landing, recover
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import step_limits
@@ -39,28 +36,32 @@ class Balance:
 
     Attributes:
         disturbance: what pushes the DCM, as observed.
+        slow: (2,) what of it is there for good, world, m/s.
     """
 
-    def __init__(self, robot: Robot, omega: float, gains: TrackingGains, blind: bool) -> None:
+    def __init__(
+        self, robot: Robot, omega: float, gains: TrackingGains, lag: float, leans: bool = False
+    ) -> None:
         """Begin with a robot that nothing pushes.
 
         Args:
             robot: whose it is.
             omega: natural frequency of the pendulum, 1/s.
             gains: of the feedback.
-            blind: whether the ground is not known.
+            lag: time constant of the disturbance's estimate, s.
+            leans: whether a disturbance that stays is leant against.
         """
         lean, sole = LEAN * robot.leg_length, robot.sole
         self._sole = sole
         self._reach = Sole(sole.half_length + lean, sole.half_width + lean)
         self._rates = FeedbackGains(omega, gains.dcm, gains.height)
-        self._lag = ROUGH_SMOOTHING_TIME if blind else SMOOTHING_TIME
+        self._lag, self._leans = lag, leans
         self._limits = step_limits(robot.leg_length, robot.step_width, sole, omega)
         self.forget()
 
     def forget(self) -> None:
         """Know nothing of what was before."""
-        self.disturbance = Disturbance()
+        self.disturbance, self.slow = Disturbance(), np.zeros(2)
         self._memory = RecoveryMemory()
 
     def feedback(
@@ -74,6 +75,8 @@ class Balance:
             standing: measured poses (4, 4) of the soles in contact, world, m.
         """
         support = Support(standing, self._sole, self._reach)
+        if self._leans:
+            reference = leaning(reference, self.slow / self._rates.omega)
         return com_feedback(state, reference, self.disturbance.rate, support, self._rates)
 
     def observe(self, t: float, dynamics: Dynamics, zmp: Array) -> None:
@@ -86,7 +89,10 @@ class Balance:
         """
         omega = self._rates.omega
         dcm = CentroidalState(dynamics.com, dynamics.com_velocity).dcm(omega)
-        self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, lag=self._lag)
+        last = self.disturbance
+        self.disturbance = observe(last, t, dcm, zmp, omega, lag=self._lag)
+        if self._leans and last.time is not None:
+            self.slow = steady(self.slow, self.disturbance.rate, t - last.time, omega)
 
     def answer(
         self, t: float, pattern: WalkingPattern, feet: Feet, dynamics: Dynamics
@@ -100,7 +106,9 @@ class Balance:
             dynamics: at the measured state.
         """
         pushed, swing = self.disturbance, free_swing(t, pattern.plan, feet, dynamics)
-        situation = Situation(t, pattern.plan, pushed.dcm, pushed.rate, pattern.planned_dcm, swing)
+        # What is there for good is leant against: recovery sees the walk as if it were not there.
+        dcm, rate = pushed.dcm + self.slow / self._rates.omega, pushed.rate - self.slow
+        situation = Situation(t, pattern.plan, dcm, rate, pattern.planned_dcm, swing)
         decision = recover(situation, self._memory, self._limits)
         self._memory = decision.memory
         return decision.plan

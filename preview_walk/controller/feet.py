@@ -33,10 +33,13 @@ class Search:
     Attributes:
         speed: at which it goes on down, m/s.
         time: so long after it was due it counts as standing all the same, s.
+        near: so close (m) above its place it need not feel the ground: for sensors that do not
+            tell a light touch from noise, on ground that is known.
     """
 
     speed: float = 0.15
     time: float = 0.15
+    near: float = 0.0
 
 
 SEARCH = Search()
@@ -44,6 +47,9 @@ SEARCH = Search()
 
 DEEP_SEARCH = Search(0.8, 0.2)
 """The search on ground that is not known: 16 cm down."""
+
+NOISY_SEARCH = Search(near=0.005)
+"""The search of a robot whose force sensors are not exact."""
 
 SINK_SPEED = 0.05
 """A foot that should stand and carries nothing goes down at this speed (m/s): while all the load is
@@ -160,7 +166,8 @@ class Feet:
                 if self._swing(t, step, soles[foot], stood, load > CONTACT_FORCE):
                     early = foot
                 continue
-            target = self._stand(t, plan, foot, load > TOUCH_FORCE)
+            there = soles[foot][2, 3] - plan.sole(foot, t)[2, 3] < self._search.near
+            target = self._stand(t, plan, foot, load > TOUCH_FORCE or bool(there))
             if target.contact and load < TOUCH_FORCE:
                 if sum(normal_force.values()) > 0.5 * self._weight:
                     self.states[foot] = replace(self.states[foot], bare=t)

@@ -10,7 +10,8 @@ from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.airborne import Airborne
 from preview_walk.controller.balance import Balance
 from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
-from preview_walk.controller.feet import DEEP_SEARCH, SEARCH, Feet
+from preview_walk.controller.feet import DEEP_SEARCH, NOISY_SEARCH, SEARCH, Feet
+from preview_walk.controller.hardware import FrictionCompensation, Hardware, smoothing_time
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion
@@ -66,6 +67,7 @@ class Walker:
         com_generator: str = "preview",
         ground: Ground | None = None,
         blind: bool = False,
+        hardware: Hardware | None = None,
     ) -> None:
         """Stand on the plan's first soles.
 
@@ -81,12 +83,13 @@ class Walker:
             com_generator: "preview", "mpc" or "dcm".
             ground: what all steps are laid on; None takes footholds as they are given.
             blind: whether the ground is what the soles feel, wherever the plan has them.
+            hardware: what is known of its imperfections; None: there are none.
 
         Raises:
             InvalidInput: there is no such solver or CoM generator.
         """
         self.robot = instance_of(robot, Robot, "robot")
-        self.ground, self.blind = ground, blind
+        self.ground, self.blind, self.hardware = ground, blind, hardware
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
@@ -105,14 +108,17 @@ class Walker:
         legs = leg_geometry(robot)
         model = WalkerModel(legs, robot.sole, momentum_model(robot), self.swing_height)
         self.pattern = WalkingPattern(plan, com, model, com_generator)
-        search = DEEP_SEARCH if blind else SEARCH
+        known = SEARCH if hardware is None else NOISY_SEARCH
+        search = DEEP_SEARCH if blind else known
         self.feet = Feet(plan, self.weight, self.swing_height, search)
         self.reference: ComReference = self.pattern.at(plan.start)
         self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
         self._planned_until = -np.inf
-        self.balance = Balance(robot, self.pattern.omega, self.gains, blind)
+        lag = smoothing_time(hardware, blind)
+        self.balance = Balance(robot, self.pattern.omega, self.gains, lag, hardware is not None)
         self.airborne = Airborne(robot)
         self._felt = FeltGround(plan)
+        self._friction = None if hardware is None else FrictionCompensation(hardware.friction)
 
     def __repr__(self) -> str:
         return f"Walker({self.robot.name}, {self.plan!r})"
@@ -185,7 +191,11 @@ class Walker:
         if self.blind:
             for foot, twist in settling(t, self.feet.states, wrench, self.body):
                 self.body.settle[foot] = self.body.settle.get(foot, 0.0) + twist
-        return self.body.torques(self.feet.normal_limits(t, self.plan))
+        torques = self.body.torques(self.feet.normal_limits(t, self.plan))
+        if self._friction is None:
+            return torques
+        limit = self.robot.effort
+        return np.clip(torques + self._friction.torques(t, self.body), -limit, limit)
 
     def _walk(self, t: float, soles: dict[Foot, Array], normal_force: dict[Foot, float]) -> None:
         """Follow the plan, or another one where a landing, a push or the ground asks for it."""

@@ -51,9 +51,14 @@ def write_file(
 
 
 def read_file(
-    path: str | os.PathLike[str], names: Iterable[str]
+    path: str | os.PathLike[str], names: Iterable[str], optional: Iterable[str] = ()
 ) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """Return the facts and the arrays of these names; what else the file holds is not read.
+
+    Args:
+        path: of the file.
+        names: of arrays that it must have.
+        optional: names of those that it may have.
 
     Raises:
         InvalidInput: the file is missing, is no record, is damaged, has a newer format, or would
@@ -67,7 +72,9 @@ def read_file(
         if not path.is_file():
             raise ValueError("it is not a file")
         with zipfile.ZipFile(path) as archive:
-            members = {name: archive.getinfo(f"{name}.npy") for name in (FACTS, *names)}
+            there = set(archive.namelist())
+            wanted = [FACTS, *names, *(name for name in optional if f"{name}.npy" in there)]
+            members = {name: archive.getinfo(f"{name}.npy") for name in wanted}
             _require_proportion(list(members.values()), path.stat().st_size)
             arrays = {name: _read_array(archive, entry) for name, entry in members.items()}
         facts = json.loads(str(arrays.pop(FACTS)[()]))

@@ -16,11 +16,15 @@ from preview_walk.record.mujoco_state import mujoco_qpos, mujoco_qvel
 from preview_walk.record.plan_log import PLAN_ARRAYS, PlanLog
 from preview_walk.record.read_only import ReadOnlyArrays, own_array
 from preview_walk.record.run_facts import RunFacts
+from preview_walk.record.sensed import SENSED, Sensed
 from preview_walk.record.summarize import summarize
 from preview_walk.record.summary import Summary
 from preview_walk.terrain.facts import ground_of
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import Array
+
+PREFIX = "sensed_"
+"""With which the names of what was sensed begin in a file."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -30,6 +34,7 @@ class Record(ReadOnlyArrays, Ticks):
     Attributes:
         plans: the footstep plans, one revision per change; `plans[-1]` is the last in force.
         run: what the run was made of and how it ended.
+        sensed: readings and estimates of a robot with real sensors; None for perfect ones.
 
     Raises:
         InvalidInput: an array's shape does not fit its field.
@@ -37,6 +42,7 @@ class Record(ReadOnlyArrays, Ticks):
 
     plans: PlanLog
     run: RunFacts
+    sensed: Sensed | None = None
 
     def __post_init__(self) -> None:
         """Check the shapes, then make everything read-only."""
@@ -91,8 +97,10 @@ class Record(ReadOnlyArrays, Ticks):
         return mujoco_qvel(self.q, self.v)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return the arrays of the ticks by name."""
-        return {name: getattr(self, name) for name in FIELDS}
+        """Return the arrays of the ticks by name; those of `sensed` begin with "sensed_"."""
+        more = {} if self.sensed is None else self.sensed.arrays()
+        ticks = {name: getattr(self, name) for name in FIELDS}
+        return {**ticks, **{PREFIX + name: array for name, array in more.items()}}
 
     def with_run(self, **facts: Any) -> Record:
         """Return the same record with these facts of its run replaced.
@@ -113,9 +121,13 @@ class Record(ReadOnlyArrays, Ticks):
             name
             for name in mine
             if not (name in FIELDS and FIELDS[name].timing)
-            and (mine[name].shape, mine[name].tobytes())
-            != (theirs[name].shape, theirs[name].tobytes())
+            and (
+                name not in theirs
+                or (mine[name].shape, mine[name].tobytes())
+                != (theirs[name].shape, theirs[name].tobytes())
+            )
         ]
+        names += [name for name in theirs if name not in mine]
         names += [f"run.{name}" for name in self.run.differences(other.run)]
         return tuple(names)
 
@@ -125,7 +137,7 @@ class Record(ReadOnlyArrays, Ticks):
 
     def summary(self) -> Summary:
         """Return the figures of the run; it prints as a table."""
-        return summarize(self, self.plans, self.run)
+        return summarize(self, self.plans, self.run, self.sensed)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the record to one compressed .npz file, whole or not at all; return its path.
@@ -146,12 +158,16 @@ class Record(ReadOnlyArrays, Ticks):
             InvalidInput: the file is missing, is no record, is damaged, has a newer format, or
                 would take memory out of proportion to its size.
         """
-        facts, arrays = read_file(path, [*FIELDS, *PLAN_ARRAYS])
+        more = [PREFIX + name for name in SENSED]
+        facts, arrays = read_file(path, [*FIELDS, *PLAN_ARRAYS], optional=more)
         try:
             ticks = {name: arrays[name] for name in FIELDS}
             run, plans = RunFacts.from_dict(facts), PlanLog.from_arrays(arrays)
-            return Record(**ticks, plans=plans, run=run)
-        except InvalidInput as error:
+            sensed = {name: arrays[PREFIX + name] for name in SENSED if PREFIX + name in arrays}
+            return Record(
+                **ticks, plans=plans, run=run, sensed=Sensed(**sensed) if sensed else None
+            )
+        except (InvalidInput, TypeError) as error:
             reason = str(error).rstrip(".")
             raise InvalidInput(
                 f"{os.fsdecode(path)} is not a record written by preview_walk ({reason}).",

@@ -7,17 +7,13 @@ from importlib.metadata import PackageNotFoundError, version
 from platform import python_version
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.record.columns import ROOM, Columns
 from preview_walk.record.fields import FIELDS
 from preview_walk.record.plan_writer import PlanWriter
 from preview_walk.record.record import Record
 from preview_walk.record.run_facts import RunFacts
-
-ROOM = 4096
-"""Ticks that a recorder makes room for at first; it doubles when full."""
+from preview_walk.record.sensed import Sensed, sensed_columns
 
 
 class Recorder:
@@ -33,38 +29,25 @@ class Recorder:
         self._run = run
         self._plans = PlanWriter()
         self._plan: FootstepPlan | None = None
-        self._n = 0
-        self._arrays: dict[str, NDArray[Any]] = {}
-        for name, info in FIELDS.items():
-            shape = (capacity, *(sizes[k] if isinstance(k, str) else k for k in info.shape))
-            # What is never written shows: nan, or -1 where there is no nan.
-            empty = np.nan if info.dtype is np.float64 else -1
-            self._arrays[name] = np.full(shape, empty, dtype=info.dtype)
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out the room that nothing is written in yet."""
-        return {**vars(self), "_arrays": {n: a[: self._n] for n, a in self._arrays.items()}}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take the rows, and make room of its own: what comes to a worker may be read-only."""
-        vars(self).update(state)
-        self._grow()
+        self._sizes = dict(sizes)
+        self._ticks = Columns(FIELDS, sizes, capacity)
+        self._sensed: Columns | None = None
 
     def __len__(self) -> int:
-        return self._n
+        return len(self._ticks)
 
     def write(self, **values: Any) -> None:
         """Store the values of one tick by field name (6 to 10 microseconds for all of them).
 
         Values are copied. A tick interrupted half way is not counted: a record has whole rows.
         """
-        i = self._n
-        arrays = self._arrays
-        if i == len(arrays["time"]):
-            self._grow()
-        for name, value in values.items():
-            arrays[name][i] = value
-        self._n = i + 1
+        self._ticks.write(values)
+
+    def sensed(self, **values: Any) -> None:
+        """Store what a robot with real sensors measured and estimated at the tick written last."""
+        if self._sensed is None:
+            self._sensed = sensed_columns(self._sizes)
+        self._sensed.write(values)
 
     def plan(self, time: float, plan: FootstepPlan) -> None:
         """Note the plan in force from `time` (s); free when it is the one already noted."""
@@ -78,14 +61,9 @@ class Recorder:
         Raises:
             InvalidInput: the run has no fact of such a name.
         """
-        arrays = {name: array[: self._n] for name, array in self._arrays.items()}
-        return Record(**arrays, plans=self._plans.finish(), run=self._run.replaced(**outcome))
-
-    def _grow(self) -> None:
-        for name, array in self._arrays.items():
-            empty = np.nan if array.dtype == np.float64 else -1
-            more = np.full((max(len(array), ROOM), *array.shape[1:]), empty, dtype=array.dtype)
-            self._arrays[name] = np.concatenate([array, more])
+        sensed = None if self._sensed is None else Sensed(**self._sensed.rows())
+        run = self._run.replaced(**outcome)
+        return Record(**self._ticks.rows(), plans=self._plans.finish(), run=run, sensed=sensed)
 
 
 _PACKAGES = ("preview-walk", "mujoco", "pin", "osqp", "qpsolvers", "control", "numpy", "scipy")

@@ -39,6 +39,7 @@ class RunFacts:
         friction: Coulomb friction between soles and floor.
         ground: what was walked on, as plain values; `Record.ground` makes it one again.
         blind: whether the walker took the ground for level and felt its way.
+        realism: what was not perfect about the robot, as plain values; empty: nothing.
         seed: of whatever was random.
         solver: the QP solver's name.
         gains: weights and gains of the tracker by name.
@@ -74,6 +75,7 @@ class RunFacts:
     friction: float = nan
     ground: Mapping[str, Any] = ReadOnlyMapping({})
     blind: bool = False
+    realism: Mapping[str, Any] = ReadOnlyMapping({})
     seed: int = 0
     solver: str = ""
     gains: Mapping[str, Any] = ReadOnlyMapping({})

@@ -8,18 +8,20 @@ from preview_walk.geometry.planar import mid_yaw, turn, wrap, yaw
 from preview_walk.record.fields import Ticks
 from preview_walk.record.plan_log import PlanLog
 from preview_walk.record.run_facts import RunFacts
+from preview_walk.record.sensed import Sensed
 from preview_walk.record.summary import Figures, Summary
 from preview_walk.types import FEET, Array
 
 
 @np.errstate(invalid="ignore", over="ignore", divide="ignore")
-def summarize(ticks: Ticks, plans: PlanLog, run: RunFacts) -> Summary:
+def summarize(ticks: Ticks, plans: PlanLog, run: RunFacts, sensed: Sensed | None = None) -> Summary:
     """Compute the figures of a run; `Record.summary()` is the same call.
 
     Args:
         ticks: planned and measured values; a record is one.
         plans: the footstep plans that were in force.
         run: what the run was made of.
+        sensed: what a robot with real sensors sensed; its CoM error is the true one.
     """
     duration = len(ticks.time) * run.dt
     landed = _landed(ticks, plans, run)
@@ -28,6 +30,8 @@ def summarize(ticks: Ticks, plans: PlanLog, run: RunFacts) -> Summary:
     position_error, yaw_error = _final_errors(ticks, plans, run)
     heading = mid_yaw(ticks.left_foot_ref, ticks.right_foot_ref)
     com_error = ticks.com - ticks.com_ref
+    if sensed is not None:
+        com_error = sensed.com_error(ticks.q, ticks.com_ref)
     com_error = np.column_stack([turn(com_error[:, :2], -heading), com_error[:, 2]])
     return Summary(
         robot=run.robot or None,
@@ -50,7 +54,18 @@ def summarize(ticks: Ticks, plans: PlanLog, run: RunFacts) -> Summary:
         qp_failures=int(np.count_nonzero(ticks.qp_status > 0)),
         qp_own_share=_own_share(ticks),
         real_time_factor=_number(duration / run.wall_time) if run.wall_time else None,
+        velocity_error_rms=None if sensed is None else _rms(sensed.velocity_error(ticks.v)),
+        drift=_drift(ticks, sensed, path),
+        refused=None if sensed is None or not len(ticks.time) else int(sensed.refused[-1]),
     )
+
+
+def _drift(ticks: Ticks, sensed: Sensed | None, path: float) -> float | None:
+    """Return by which share of the way the base is elsewhere than estimated in the end."""
+    if sensed is None or path < 0.1:
+        return None
+    error = ticks.q[-1, :2] - sensed.estimate_q[-1, :2]
+    return _number(float(np.linalg.norm(error)) / path)
 
 
 def torque_ratios(ticks: Ticks, run: RunFacts) -> Array:

@@ -16,6 +16,8 @@ from preview_walk.files import whole_file
 
 Figures = dict[str, float] | None
 
+_SENSED = ("velocity_error_rms", "drift", "refused")
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -47,6 +49,10 @@ class Summary:
         qp_own_share: share of the solved QPs that the run's solver solved itself; the exact method
             finished the others.
         real_time_factor: simulated time over time spent.
+        velocity_error_rms: [x, y, z] of the estimated velocity of the base, base axes, m/s; this
+            and what follows None where the sensors are perfect.
+        drift: how far the base is from where it is estimated in the end, share of the distance.
+        refused: readings of sensors that could not be, and were not taken.
     """
 
     robot: str | None
@@ -69,6 +75,9 @@ class Summary:
     qp_failures: int
     qp_own_share: float | None
     real_time_factor: float | None
+    velocity_error_rms: list[float | None] | None = None
+    drift: float | None = None
+    refused: int | None = None
 
     def __str__(self) -> str:
         """Return the table that the command prints."""
@@ -82,12 +91,18 @@ class Summary:
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write `summary.json`, whole or not at all; return its path.
 
-        What is not finite is written as null, for JSON has no infinite numbers.
+        What is not finite is written as null, for JSON has no infinite numbers; figures of sensors
+        are left out where these are perfect.
 
         Raises:
             OutputError: the file cannot be written.
         """
-        text = json.dumps(_finite(asdict(self)), indent=2, allow_nan=False) + "\n"
+        figures = {
+            name: value
+            for name, value in asdict(self).items()
+            if name not in _SENSED or self.velocity_error_rms is not None
+        }
+        text = json.dumps(_finite(figures), indent=2, allow_nan=False) + "\n"
         with whole_file(path) as part:
             part.write_text(text, encoding="utf-8")
         return Path(path)
@@ -125,6 +140,12 @@ def table(summary: Summary) -> str:
         ("QPs the solver solved", _value(s.qp_own_share, 2, "%", 1e2)),
         ("real-time factor", _value(s.real_time_factor, 2, "x")),
     ]
+    if s.velocity_error_rms is not None:
+        rows += [
+            ("base velocity off rms", _values(s.velocity_error_rms, 1, "mm/s", 1e3)),
+            ("position drift", _value(s.drift, 2, "% of the way", 1e2)),
+            ("readings refused", str(s.refused)),
+        ]
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:{width}}  {value}" for name, value in rows)
 

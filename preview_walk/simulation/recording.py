@@ -9,11 +9,14 @@ import numpy as np
 
 from preview_walk.controller.feet import CONTACT_FORCE
 from preview_walk.controller.walker import Walker
+from preview_walk.reality.realism import plain_values
 from preview_walk.record.record import Record
 from preview_walk.record.recorder import Recorder, package_versions
 from preview_walk.record.run_facts import RunFacts
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.simulation.plant import Plant
+from preview_walk.simulation.real_world import RealWorld
+from preview_walk.simulation.seeing import EstimatedSight, PerfectSight
 from preview_walk.terrain.facts import facts_of
 from preview_walk.types import DOUBLE_SUPPORT, FEET, LEFT_SUPPORT, RIGHT_SUPPORT, Array
 
@@ -42,6 +45,7 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
         friction=plant.friction,
         ground=facts_of(plant.ground),
         blind=walker.blind,
+        realism=plain_values(plant.realism) if isinstance(plant, RealWorld) else {},
         pushes=tuple(asdict(push) for push in plant.pushes),
         gains=asdict(walker.gains),
         versions=package_versions(),
@@ -52,15 +56,22 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
 class WalkRecorder:
     """Records a plant and the walker that drives it, tick by tick."""
 
-    def __init__(self, plant: Plant, walker: Walker, **facts: Any) -> None:
+    def __init__(
+        self,
+        plant: Plant,
+        walker: Walker,
+        sight: PerfectSight | EstimatedSight,
+        **facts: Any,
+    ) -> None:
         """Note what the run is made of.
 
         Args:
             plant: what is sensed and driven.
             walker: the controller.
+            sight: what it sees of the plant.
             facts: control_hz, seed, solver.
         """
-        self._plant, self._walker = plant, walker
+        self._plant, self._walker, self._sight = plant, walker, sight
         model = plant.robot.pin
         sizes = {"nq": model.nq, "nv": model.nv, "nu": model.nv - 6}
         self._recorder = Recorder(run_facts(plant, walker, **facts), sizes)
@@ -69,6 +80,8 @@ class WalkRecorder:
         """Note the tick at time t (s) that sent `torques` (n,), N·m, after `spent` seconds."""
         self._recorder.plan(t, self._walker.plan)
         self._recorder.write(**tick_row(t, self._plant, self._walker, torques, spent))
+        if isinstance(self._sight, EstimatedSight):
+            self._recorder.sensed(**self._sight.row())
 
     def finish(self, fall: tuple[float, str] | None, interrupted: bool, wall_time: float) -> Record:
         """Return the record so far.

@@ -7,6 +7,7 @@ from typing import Any
 
 from preview_walk.arguments import shown
 from preview_walk.controller.feeling import CAREFUL
+from preview_walk.controller.hardware import Hardware
 from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.controller.walker import Walker
 from preview_walk.errors import InvalidInput
@@ -14,9 +15,11 @@ from preview_walk.footsteps.laying import lay_on, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.planner import FootstepPlanner
 from preview_walk.geometry.poses import as_heading, pose_at
+from preview_walk.reality.realism import Realism
 from preview_walk.robots.robot import Robot
 from preview_walk.robots.standing import at_com_height, standing_configuration
 from preview_walk.simulation.plant import Plant
+from preview_walk.simulation.real_world import RealWorld
 from preview_walk.simulation.world import World
 from preview_walk.terrain.ground import FlatGround
 
@@ -24,12 +27,20 @@ _PLANT = ("robot", *sorted(name for name in vars(Plant) if not name.startswith("
 """What a plant has."""
 
 
-def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) -> Plant:
+def plant_of(
+    robot: Robot | Plant,
+    com_height: float | None,
+    realism: Realism | None,
+    seed: int,
+    **settings: Any,
+) -> Plant:
     """Return a robot's world with these settings, or a plant as it is.
 
     Args:
         robot: a robot, or a plant.
         com_height: that the robot is to stand with, m; None leaves its walking posture.
+        realism: what is not perfect about the robot; None: nothing.
+        seed: of its errors.
         settings: keyword arguments of `World`; None takes its defaults.
 
     Raises:
@@ -39,8 +50,9 @@ def plant_of(robot: Robot | Plant, com_height: float | None, **settings: Any) ->
     require_plant(robot)
     if isinstance(robot, Robot):
         body = robot if com_height is None else at_com_height(robot, com_height)
-        return World(body, **given)
-    names = [*given, *([] if com_height is None else ["com_height"])]
+        return World(body, **given) if realism is None else RealWorld(body, realism, seed, **given)
+    own = {"com_height": com_height, "realism": realism}
+    names = [*given, *(name for name, value in own.items() if value is not None)]
     if names:
         raise InvalidInput(
             f"{names[0]} must be left out beside a plant, which has its own.", names[0]
@@ -77,7 +89,25 @@ def stand(plant: Plant, plan: FootstepPlan, blind: bool, **settings: Any) -> Wal
         plan = swung(plan, FootstepPlan(plan[:2]), CAREFUL)
     q = standing_configuration(robot, plan[0].pose, plan[1].pose)
     plant.place(q, plan.start)
-    return Walker(robot, plan, q, friction=plant.friction, ground=ground, blind=blind, **settings)
+    return Walker(
+        robot,
+        plan,
+        q,
+        friction=plant.friction,
+        ground=ground,
+        blind=blind,
+        hardware=hardware_of(plant),
+        **settings,
+    )
+
+
+def hardware_of(plant: Plant) -> Hardware | None:
+    """Return what is known of a plant's imperfections; None where it has none."""
+    if not isinstance(plant, RealWorld):
+        return None
+    realism = plant.realism
+    friction = realism.motors.dry_friction * plant.robot.effort
+    return Hardware(realism.delay, 0.01, friction)
 
 
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:

@@ -17,6 +17,7 @@ from preview_walk.controller.robot_limits import command_limits
 from preview_walk.errors import InvalidInput, PreviewWalkError
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.footsteps.reading import PlanLike, as_plan
+from preview_walk.reality.realism import Realism
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import Command, VelocityCommands
@@ -26,6 +27,7 @@ from preview_walk.simulation.pushes import Push
 from preview_walk.simulation.rates import require_rates, steps_per_tick
 from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
+from preview_walk.simulation.seeing import sight_of
 from preview_walk.simulation.standing import plant_of, stand, standing_plan
 from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
@@ -53,8 +55,7 @@ class Walk:
     bit for bit as the original does.
 
     Attributes:
-        robot: the robot that walks.
-        plant: what is sensed and driven.
+        robot, plant: the robot that walks, and what is sensed and driven.
         walker: the controller.
         limits: what steps the robot's legs can make by command.
     """
@@ -78,6 +79,7 @@ class Walk:
         visuals: bool | None = None,
         ground: Ground | None = None,
         blind: bool = False,
+        realism: Realism | None = None,
     ) -> None:
         """Stand the robot on the plan's first soles.
 
@@ -94,12 +96,12 @@ class Walk:
             solver: "osqp", "daqp" or another backend of qpsolvers.
             swing_height: of a swing's apex above the higher of its two soles, m; None: by the leg.
             com_height: of the CoM above the soles while standing, m; None: as in the posture.
-            com_generator: what leads the CoM along the plan: "preview" (preview control), "mpc"
-                (the least jerk with the ZMP on the soles) or "dcm" (it follows the plan's DCM).
+            com_generator: what leads the CoM: "preview" control, the ZMP "mpc" or the "dcm".
             on_tick: called with the walk at the end of every tick, before the physics steps.
             visuals: run on the model with visual meshes, for the live viewer.
             ground: what the robot stands on; None is level. All plans are laid on it (`lay_on`).
             blind: whether the walker takes the ground for level, whatever it is, and feels its way.
+            realism: what is not perfect about sensors, motors and model; None: nothing.
 
         Raises:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
@@ -107,10 +109,10 @@ class Walk:
         """
         plan = as_plan(plan)
         own = {"physics_hz": physics_hz, "friction": friction, "pushes": pushes, "visuals": visuals}
-        self.plant = plant_of(robot, com_height, ground=ground, **own)
+        seed = count_of(seed, "seed", LARGEST_SEED)
+        self.plant = plant_of(robot, com_height, realism, seed, ground=ground, **own)
         self.robot = self.plant.robot
         gains = TrackingGains() if gains is None else instance_of(gains, TrackingGains, "gains")
-        seed = count_of(seed, "seed", LARGEST_SEED)
         rate = 1.0 / self.plant.timestep
         self._substeps = steps_per_tick(rate, control_hz)
         require_rates(rate, control_hz, gains)
@@ -124,6 +126,7 @@ class Walk:
             swing_height=swing_height,
             com_generator=com_generator,
         )
+        self._sight = sight_of(self.plant, self.walker, self._dt)
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = function_of(on_tick, "on_tick")
@@ -131,7 +134,7 @@ class Walk:
         self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
         self._fall: tuple[float, str] | None = None
         self._recorder = WalkRecorder(
-            self.plant, self.walker, control_hz=control_hz, seed=seed, solver=solver
+            self.plant, self.walker, self._sight, control_hz=control_hz, seed=seed, solver=solver
         )
 
     @classmethod
@@ -140,7 +143,7 @@ class Walk:
     ) -> Walk:
         """Return a walk that stands at `start` (x, y[, yaw]; m, rad), to be moved by `command`.
 
-        `settings`: keyword arguments of `Walk`.
+        `settings`: as of `Walk`.
         """
         return cls(robot, standing_plan(robot, start), **settings)
 
@@ -276,12 +279,12 @@ class Walk:
             plant.sense()
             before = perf_counter()
             try:
-                torques = walker.tick(t, plant.q, plant.v, plant.wrench)
+                seen = self._sight.look(walker)
+                torques = walker.tick(t, seen.q, seen.v, seen.wrench)
             except PreviewWalkError as stop:
                 self._fall = (t, str(stop))
                 return
-            spent = perf_counter() - before
-            self._recorder.write(t, torques, spent)
+            self._recorder.write(t, torques, perf_counter() - before)
             reason = fall_reason(walker.body.dynamics, self.robot.com_height)
             if reason is not None:
                 soles = {foot: self.plan.sole(foot, t) for foot in FEET}

@@ -1,0 +1,177 @@
+"""The estimator: from the readings of a tick to the state that the controller walks by."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from preview_walk.estimation.base_filter import BaseFilter, FilterNoise
+from preview_walk.estimation.measurement import Measurement
+from preview_walk.estimation.signals import Channel
+from preview_walk.estimation.sole_forces import ForceNoise, SoleForces
+from preview_walk.robots.robot import Robot
+from preview_walk.terrain.ground import Ground
+from preview_walk.types import FEET, Array, Foot
+
+TILT = 0.01
+"""Standard deviation of roll and pitch (rad), and of the velocity (m/s), of a robot set down."""
+
+STANDS = 0.2
+"""A sole with this share of the weight on it lies on the ground, whose height is known."""
+
+FASTEST_JOINT = 100.0
+"""No joint of a walking robot turns faster than this (rad/s)."""
+
+
+LEAST_TIME = 1e-3
+"""Time (s) for which the first readings of a run stand."""
+
+
+@dataclass(frozen=True)
+class SensorNoise:
+    """What an estimator takes its sensors for.
+
+    Attributes:
+        base: of IMU and legs.
+        soles: of the force sensors.
+    """
+
+    base: FilterNoise
+    soles: ForceNoise
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The state as the controller has it.
+
+    Attributes:
+        q: (nq,) configuration, Pinocchio's conventions.
+        v: (nv,) velocity, Pinocchio's conventions.
+        wrench: (6,) per foot, ground on robot: [force; moment about the sole's centre], world axes.
+    """
+
+    q: Array
+    v: Array
+    wrench: Mapping[Foot, Array]
+
+
+class Estimator:
+    """Tells a robot's state from its sensors.
+
+    Attributes:
+        base: the filter of the base's pose and velocity, as of the readings' time.
+        delay: age of the readings, and of the torques when they act, s: `state` is that much ahead
+            of `base`.
+        soles: what they feel.
+    """
+
+    def __init__(
+        self, robot: Robot, q: Array, noise: SensorNoise, delay: float, ground: Ground | None
+    ) -> None:
+        """Begin with a robot at rest in a configuration that is known.
+
+        Args:
+            robot: whose state is wanted.
+            q: (nq,) configuration, Pinocchio's conventions.
+            noise: of the sensors.
+            delay: to be predicted over, s.
+            ground: whose height under the soles is known; None where it is not.
+        """
+        self.robot, self.delay, self._ground = robot, delay, ground
+        self._model, self._data = robot.pin, robot.pin.createData()
+        self._frames = [robot.soles[foot].frame for foot in FEET]
+        self._own = np.array(q)
+        self._own[:3], self._own[3:7] = 0.0, (0.0, 0.0, 0.0, 1.0)
+        self._weight = robot.mass * robot.gravity
+        rotation = pin.Quaternion(q[3:7]).toRotationMatrix()
+        soles = q[:3] + self._legs() @ rotation.T
+        self.base = BaseFilter(noise.base, rotation, q[:3], soles, TILT)
+        self.soles = SoleForces(self._weight, noise.soles)
+        n = robot.pin.nv - 6
+        self._speeds = np.zeros(n)
+        self._angles = Channel("the encoder of joint", "rad", 1e3, 1.0)
+        self._rates = Channel("the speed of joint", "rad/s", FASTEST_JOINT)
+        self._gyro = Channel("axis of the gyro", "rad/s", 50.0)
+        self._accelerometer = Channel("axis of the accelerometer", "m/s^2", 1000.0)
+        self._last_gyro, self._last_force = np.zeros(3), np.array((0.0, 0.0, robot.gravity))
+
+    @property
+    def refused(self) -> int:
+        """How many readings could not be, and were not taken."""
+        channels = (self._angles, self._rates, self._gyro, self._accelerometer)
+        return sum(channel.refused for channel in channels)
+
+    def update(self, m: Measurement, acceleration: Array, dt: float) -> Estimate:
+        """Return the state at the time when this tick's torques act.
+
+        Args:
+            m: the readings.
+            acceleration: (nv,) that the controller has asked for, Pinocchio's conventions.
+            dt: time since the last readings, s.
+
+        Raises:
+            SensorError: a sensor has failed for too long.
+        """
+        angles = self._angles.take(m.angles, self._own[7:] + dt * self._speeds, dt)
+        speeds = self._rates.take(m.speeds, self._speeds, dt)
+        gyro = self._gyro.take(m.gyro, self._last_gyro, dt)
+        force = self._accelerometer.take(m.accelerometer, self._last_force, dt)
+        self._own[7:], self._speeds = angles, speeds
+        self._last_gyro, self._last_force = gyro, force
+        base = self.base
+        if dt > 0.0:
+            base.predict(gyro, force, dt, self.soles.loads)
+        legs = self._legs()
+        read = np.array([m.wrench[foot] for foot in FEET])
+        carried = self.robot.mass * float(base.rotation[2] @ (force - base.accelerometer_bias))
+        self.soles.update(read, carried, legs @ base.rotation[2], max(dt, LEAST_TIME))
+        base.correct(legs, self._heights())
+        wrench = self._wrenches()
+        return self._ahead(angles, speeds, gyro - base.gyro_bias, acceleration, wrench)
+
+    def _legs(self) -> Array:
+        """Return the places (2, 3) of the soles from the base, base axes, m."""
+        pin.forwardKinematics(self._model, self._data, self._own)
+        return np.array(
+            [pin.updateFramePlacement(self._model, self._data, f).translation for f in self._frames]
+        )
+
+    def _wrenches(self) -> dict[Foot, Array]:
+        """Return the soles' wrenches in world axes."""
+        wrench = {}
+        for k, (foot, frame) in enumerate(zip(FEET, self._frames, strict=True)):
+            turn = self.base.rotation @ self._data.oMf[frame].rotation
+            wrench[foot] = (self.soles.wrench[k].reshape(2, 3) @ turn.T).reshape(6)
+        return wrench
+
+    def _heights(self) -> list[float | None]:
+        """Return the height of known ground under each sole that stands on it, or None."""
+        if self._ground is None:
+            return [None, None]
+        return [
+            float(self._ground.height(*self.base.vectors[2 + k, :2])) if load > STANDS else None
+            for k, load in enumerate(self.soles.loads)
+        ]
+
+    def _ahead(
+        self,
+        angles: Array,
+        speeds: Array,
+        spin: Array,
+        acceleration: Array,
+        wrench: dict[Foot, Array],
+    ) -> Estimate:
+        """Return the state by which the robot has moved on when the torques act."""
+        base = self.base
+        q = np.empty(len(angles) + 7)
+        q[:3], q[7:] = base.position, angles
+        q[3:7] = pin.Quaternion(base.rotation).coeffs()
+        v = np.concatenate((base.rotation.T @ base.velocity, spin, speeds))
+        ahead = self.delay
+        if ahead > 0.0:
+            q = pin.integrate(self._model, q, ahead * v + (0.5 * ahead * ahead) * acceleration)
+            v = v + ahead * acceleration
+        return Estimate(q, v, wrench)
