@@ -32,6 +32,7 @@ OPTION_OF = {
     "control_hz": "--control-hz",
     "solver": "--solver",
     "com_generator": "--com-generator",
+    "realism": "--realism",
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 

@@ -149,6 +149,12 @@ OPTIONS = (
         "slope, stairs, ramps, blocks, stones, rough or heightfield:FILE; all steps are laid on it",
     ),
     Option(
+        "--realism",
+        "none|lab|field",
+        text("none, lab or field"),
+        "sensors, motors and a model as good as in a laboratory, or in the field; seeded by --seed",
+    ),
+    Option(
         "--push",
         "T,DURATION,FX,FY,FZ",
         numbers(

@@ -33,6 +33,7 @@ class Options:
         friction: of the ground.
         ground: what is walked on, in words.
         blind: whether the robot knows nothing of it.
+        realism: how good the robot is, in words; None: perfect.
         pushes: (begin, duration, force) in s, s and N.
         random_pushes: (every, impulse) in s and N·s.
         seed: of whatever is random.
@@ -69,6 +70,7 @@ class Options:
     inspect: str | None
     no_plots: bool = False
     blind: bool = False
+    realism: str | None = None
 
 
 def parse(argv: Sequence[str] | None = None) -> Options:
@@ -118,6 +120,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         inspect=found.inspect,
         no_plots=found.no_plots,
         blind=found.blind,
+        realism=found.realism,
     )
 
 

@@ -103,6 +103,8 @@ def _walk(
         }
         if options.ground is not None:
             settings["ground"] = pw.read_ground(options.ground)
+        if options.realism is not None:
+            settings["realism"] = pw.read_realism(options.realism)
         if options.blind:
             settings["blind"] = True
         if plan is None:

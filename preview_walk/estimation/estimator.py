@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.estimation.base_filter import BaseFilter, FilterNoise
+from preview_walk.estimation.joints import Joints
 from preview_walk.estimation.measurement import Measurement
 from preview_walk.estimation.signals import Channel
 from preview_walk.estimation.sole_forces import ForceNoise, SoleForces
@@ -21,9 +22,6 @@ TILT = 0.01
 
 STANDS = 0.2
 """A sole with this share of the weight on it lies on the ground, whose height is known."""
-
-FASTEST_JOINT = 100.0
-"""No joint of a walking robot turns faster than this (rad/s)."""
 
 
 LEAST_TIME = 1e-3
@@ -66,6 +64,7 @@ class Estimator:
         delay: age of the readings, and of the torques when they act, s: `state` is that much ahead
             of `base`.
         soles: what they feel.
+        joints: what they do.
     """
 
     def __init__(
@@ -90,10 +89,7 @@ class Estimator:
         soles = q[:3] + self._legs() @ rotation.T
         self.base = BaseFilter(noise.base, rotation, q[:3], soles, TILT)
         self.soles = SoleForces(self._weight, noise.soles)
-        n = robot.pin.nv - 6
-        self._speeds = np.zeros(n)
-        self._angles = Channel("the encoder of joint", "rad", 1e3, 1.0)
-        self._rates = Channel("the speed of joint", "rad/s", FASTEST_JOINT)
+        self.joints = Joints(q[7:])
         self._gyro = Channel("axis of the gyro", "rad/s", 50.0)
         self._accelerometer = Channel("axis of the accelerometer", "m/s^2", 1000.0)
         self._last_gyro, self._last_force = np.zeros(3), np.array((0.0, 0.0, robot.gravity))
@@ -101,8 +97,7 @@ class Estimator:
     @property
     def refused(self) -> int:
         """How many readings could not be, and were not taken."""
-        channels = (self._angles, self._rates, self._gyro, self._accelerometer)
-        return sum(channel.refused for channel in channels)
+        return self.joints.refused + self._gyro.refused + self._accelerometer.refused
 
     def update(self, m: Measurement, acceleration: Array, dt: float) -> Estimate:
         """Return the state at the time when this tick's torques act.
@@ -115,11 +110,10 @@ class Estimator:
         Raises:
             SensorError: a sensor has failed for too long.
         """
-        angles = self._angles.take(m.angles, self._own[7:] + dt * self._speeds, dt)
-        speeds = self._rates.take(m.speeds, self._speeds, dt)
+        self.joints.update(m, acceleration[6:], dt)
         gyro = self._gyro.take(m.gyro, self._last_gyro, dt)
         force = self._accelerometer.take(m.accelerometer, self._last_force, dt)
-        self._own[7:], self._speeds = angles, speeds
+        self._own[7:] = self.joints.angles
         self._last_gyro, self._last_force = gyro, force
         base = self.base
         if dt > 0.0:
@@ -130,7 +124,7 @@ class Estimator:
         self.soles.update(read, carried, legs @ base.rotation[2], max(dt, LEAST_TIME))
         base.correct(legs, self._heights())
         wrench = self._wrenches()
-        return self._ahead(angles, speeds, gyro - base.gyro_bias, acceleration, wrench)
+        return self._ahead(gyro - base.gyro_bias, acceleration, wrench)
 
     def _legs(self) -> Array:
         """Return the places (2, 3) of the soles from the base, base axes, m."""
@@ -156,16 +150,9 @@ class Estimator:
             for k, load in enumerate(self.soles.loads)
         ]
 
-    def _ahead(
-        self,
-        angles: Array,
-        speeds: Array,
-        spin: Array,
-        acceleration: Array,
-        wrench: dict[Foot, Array],
-    ) -> Estimate:
+    def _ahead(self, spin: Array, acceleration: Array, wrench: dict[Foot, Array]) -> Estimate:
         """Return the state by which the robot has moved on when the torques act."""
-        base = self.base
+        base, angles, speeds = self.base, self.joints.angles, self.joints.speeds
         q = np.empty(len(angles) + 7)
         q[:3], q[7:] = base.position, angles
         q[3:7] = pin.Quaternion(base.rotation).coeffs()

@@ -26,8 +26,12 @@ TARE = 0.1
 ALL = 0.85
 """A sole is in the air if the other carries this share of the weight, and it next to none."""
 
-MISSING = 0.25
-"""Share of the weight by which both soles may feel less than what carries the robot."""
+MISSING = 0.6
+"""Both soles may feel less than what carries the robot by this share of the weight: the base, where
+that is measured, goes up and down by itself as legs swing."""
+
+STANDS_IN = 0.3
+"""Share of the weight that a sole with a dead sensor carries at least, if it carries any."""
 
 DEAD = 0.03
 """A sensor that feels too little for so long (s) is dead."""
@@ -106,7 +110,7 @@ class SoleForces:
     def _complete(self, carried: float, heights: Array, dt: float) -> None:
         """Put what is missing under a sole whose sensor is dead."""
         loads = self.wrench[:, 2]
-        missing = carried - float(loads.sum())
+        missing = min(carried, self._weight) - float(loads.sum())
         silent = [k for k in (0, 1) if loads[k] == 0.0]
         short = bool(silent) and missing > MISSING * self._weight
         self._missing = self._missing + dt if short else 0.0
@@ -115,4 +119,5 @@ class SoleForces:
         for k in (0, 1):
             self.dead[k] = self.dead[k] and loads[k] == 0.0
             if self.dead[k]:
-                self.wrench[k, 2] = max(0.0, missing)
+                share = 1.0 - float(loads[1 - k]) / self._weight
+                self.wrench[k, 2] = share * self._weight if share > STANDS_IN else 0.0

@@ -104,7 +104,8 @@ class Instruments:
         self._speed, self._velocity = np.zeros(n), np.zeros(3)
         turn = np.zeros(9)
         mujoco.mju_quat2Mat(turn, data.qpos[3:7])
-        rest = np.array((np.zeros(3), self._robot.gravity * turn.reshape(3, 3)[2]))
+        rest = np.zeros((2, 2, 3))
+        rest[0, 1] = self._robot.gravity * turn.reshape(3, 3)[2]
         age = Delayed(0.0 * rest, dt, imu.delay, imu.rate)
         self._now = {
             "joints": Delayed(np.array((angles, np.zeros(n))), dt, encoders.delay, encoders.rate),
@@ -150,7 +151,10 @@ class Instruments:
         felt = force @ turn.reshape(3, 3) + self._force_bias + imu.accelerometer_noise * noise[1]
         gyro = self._spoilt("gyro", gyro, t)
         felt = self._spoilt("accelerometer", felt, t)
-        self._sums = self._sums + dt * np.array((gyro, felt))
+        felt = np.array((gyro, felt))
+        # A sum would keep a reading that is no number for ever: those are counted instead.
+        good = np.isfinite(felt)
+        self._sums = self._sums + np.array((dt * np.where(good, felt, 0.0), ~good))
         self._now["imu"].put(self._sums)
         self._now["soles"].put(self._spoilt("sole", self._wrenches(data), t))
 
@@ -158,7 +162,8 @@ class Instruments:
         """Return what the sensors give now; `elapsed` (s) since they were read last."""
         joints, wrench = self._now["joints"].value, self._now["soles"].value
         sums = self._now["imu"].value
-        gyro, force = (sums - self._read) / (elapsed or self._dt)
+        means, bad = sums - self._read
+        gyro, force = np.where(bad > 0.0, np.nan, means / (elapsed or self._dt))
         self._read = sums
         return Measurement(joints[0], joints[1], gyro, force, dict(zip(FEET, wrench, strict=True)))
 

@@ -102,7 +102,7 @@ def test_a_row_that_breaks_half_way_is_not_counted() -> None:
     assert len(recorder.finish()) == 1
 
 
-def test_ticks._arrays_and_facts_cannot_be_changed(record: Record) -> None:
+def test_arrays_and_facts_cannot_be_changed(record: Record) -> None:
     with pytest.raises(ValueError, match="read-only"):
         record.com[0, 0] = 1.0
     with pytest.raises(dataclasses.FrozenInstanceError):
@@ -117,13 +117,13 @@ def test_a_record_pickles_and_copies_and_stays_read_only(record: Record) -> None
             assert not array.flags.writeable, name
 
 
-def test_loaded_ticks._arrays_are_read_only(record: Record, tmp_path: Path) -> None:
+def test_loaded_arrays_are_read_only(record: Record, tmp_path: Path) -> None:
     loaded = Record.load(record.save(tmp_path / "x.npz"))
     for name, array in {**loaded.arrays(), **loaded.plans.arrays()}.items():
         assert not array.flags.writeable, name
 
 
-def test_the_callers_ticks._arrays_are_not_kept(record: Record) -> None:
+def test_the_callers_arrays_are_not_kept(record: Record) -> None:
     com = record.com.copy()
     view = com[:]
     view.setflags(write=False)  # the caller can still write through `com`
