@@ -61,8 +61,14 @@ class Balance:
 
     def forget(self) -> None:
         """Know nothing of what was before."""
-        self.disturbance, self.slow = Disturbance(), np.zeros(2)
+        self.disturbance, self._felt, self.slow = Disturbance(), Disturbance(), np.zeros(2)
         self._memory = RecoveryMemory()
+
+    @property
+    def lean(self) -> Array:
+        """(2,) by which the CoM stays behind its reference, into what pushes for good, world, m."""
+        value: Array = self.slow / self._rates.omega
+        return value
 
     def feedback(
         self, state: CentroidalState, reference: ComReference, standing: Sequence[Array]
@@ -76,23 +82,27 @@ class Balance:
         """
         support = Support(standing, self._sole, self._reach)
         if self._leans:
-            reference = leaning(reference, self.slow / self._rates.omega)
+            reference = leaning(reference, self.lean)
         return com_feedback(state, reference, self.disturbance.rate, support, self._rates)
 
-    def observe(self, t: float, dynamics: Dynamics, zmp: Array) -> None:
+    def observe(self, t: float, dynamics: Dynamics, zmp: Array, felt: Array | None = None) -> None:
         """Observe what pushes the robot.
 
         Args:
             t: now, s.
             dynamics: at the measured state.
             zmp: (2,) the point that drove the DCM since the last time, world, m.
+            felt: (2,) the ZMP that the soles feel; what stays is told from it, for a motor that is
+                not exact pushes nobody. None where it is not wanted or nothing is felt.
         """
         omega = self._rates.omega
         dcm = CentroidalState(dynamics.com, dynamics.com_velocity).dcm(omega)
-        last = self.disturbance
-        self.disturbance = observe(last, t, dcm, zmp, omega, lag=self._lag)
-        if self._leans and last.time is not None:
-            self.slow = steady(self.slow, self.disturbance.rate, t - last.time, omega)
+        self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, lag=self._lag)
+        if self._leans and felt is not None:
+            last = self._felt
+            self._felt = observe(last, t, dcm, felt, omega, lag=self._lag)
+            if last.time is not None:
+                self.slow = steady(self.slow, self._felt.rate, t - last.time, omega)
 
     def answer(
         self, t: float, pattern: WalkingPattern, feet: Feet, dynamics: Dynamics
@@ -107,7 +117,7 @@ class Balance:
         """
         pushed, swing = self.disturbance, free_swing(t, pattern.plan, feet, dynamics)
         # What is there for good is leant against: recovery sees the walk as if it were not there.
-        dcm, rate = pushed.dcm + self.slow / self._rates.omega, pushed.rate - self.slow
+        dcm, rate = pushed.dcm + self.lean, pushed.rate - self.slow
         situation = Situation(t, pattern.plan, dcm, rate, pattern.planned_dcm, swing)
         decision = recover(situation, self._memory, self._limits)
         self._memory = decision.memory

@@ -22,6 +22,7 @@ from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
 from preview_walk.pattern.walker_model import WalkerModel
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
+from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import CentroidalState, ComFeedback
 from preview_walk.stabilizer.flight import waiting
@@ -118,6 +119,7 @@ class Walker:
         self.balance = Balance(robot, self.pattern.omega, self.gains, lag, hardware is not None)
         self.airborne = Airborne(robot)
         self._felt = FeltGround(plan)
+        self._zmp: Array | None = None
         self._friction = None if hardware is None else FrictionCompensation(hardware.friction)
 
     def __repr__(self) -> str:
@@ -174,6 +176,8 @@ class Walker:
         normal_force = {foot: float(wrench[foot][2]) for foot in FEET}
         self.body.update(q, v)
         dynamics = self.body.dynamics
+        if self.hardware is not None:
+            self._zmp = self._felt_zmp(wrench)
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
         soles = {foot: dynamics.soles[foot].pose for foot in FEET}
         self.airborne.feel(t, sum(normal_force.values()) / self.weight, self.body, self.plan)
@@ -233,7 +237,7 @@ class Walker:
     def _replan(self, t: float) -> None:
         """Walk by another plan where a push asks for it; without ground to step on, wait."""
         dynamics = self.body.dynamics
-        self.balance.observe(t, dynamics, self.feedback.sole_zmp)
+        self.balance.observe(t, dynamics, self.feedback.sole_zmp, self._zmp)
         if self.airborne.flight.flies or (self.blind and self.feet.searching):
             plan = waiting(self.plan, t)
             if plan is not None:
@@ -242,7 +246,14 @@ class Walker:
         plan = self.balance.answer(t, self.pattern, self.feet, dynamics)
         if plan is not None:
             self.follow(self.laid(plan, ROUGH))
-            self.pattern.rejoin(t, dynamics.com[:2])
+            self.pattern.rejoin(t, dynamics.com[:2] + self.balance.lean)
+
+    def _felt_zmp(self, wrench: Mapping[Foot, Array]) -> Array | None:
+        """Return the ZMP (2,) that the soles feel, m; None where they feel next to nothing."""
+        soles = self.body.dynamics.soles
+        left, right = soles["left"].position, soles["right"].position
+        point = zmp((wrench["left"], wrench["right"]), (left, right), self.reference.ground)
+        return point if np.isfinite(point).all() else None
 
     def _set_tasks(self) -> None:
         """Hand feedback and targets to the tasks; the torso stays upright between the feet."""

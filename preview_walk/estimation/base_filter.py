@@ -50,6 +50,7 @@ class FilterNoise:
         gyro_walk, accelerometer_walk: of the biases, rad/s and m/s^2 per square root of a second.
         gyro_bias, accelerometer_bias: of the biases at first, rad/s, m/s^2.
         contact: of the place of a sole that stands, m per square root of a second.
+        turn: of the base's turning rate as the standing leg has it, rad/s.
         leg: of a sole's place as encoders and leg give it, m.
         ground: of the height of known ground under a sole, m.
     """
@@ -61,6 +62,7 @@ class FilterNoise:
     gyro_bias: float
     accelerometer_bias: float
     contact: float
+    turn: float
     leg: float
     ground: float
 
@@ -205,6 +207,22 @@ class BaseFilter:
         p = p - seen @ gain
         self.covariance = 0.5 * (p + p.T)
         self._move(innovation @ gain)
+
+    def correct_turn(self, gyro: Array, leg: Array) -> None:
+        """Take in how a leg turns on a sole that stands: it tells the gyro's bias.
+
+        A sole is no point: it does not turn where it stands, so that the base turns as the leg's
+        joints say. Without this the bias about the vertical shows only while both soles stand.
+
+        Args:
+            gyro: (3,) measured turning rate, base axes, rad/s.
+            leg: (3,) the base's as the joints of the standing leg have it, likewise.
+        """
+        p = self.covariance
+        s = p[_G, _G] + self.noise.turn**2 * _I3
+        gain = np.linalg.solve(s, p[_G])
+        self.covariance = p - p[:, _G] @ gain
+        self._move((gyro - self.gyro_bias - leg) @ gain)
 
     def _let_go(self, sole: slice, innovation: Array) -> None:
         """Let a sole's place be free where it is too far from where it stood: it has slipped."""

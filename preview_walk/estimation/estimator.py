@@ -20,6 +20,9 @@ from preview_walk.types import FEET, Array, Foot
 TILT = 0.01
 """Standard deviation of roll and pitch (rad), and of the velocity (m/s), of a robot set down."""
 
+STANDS_ALONE = 0.6
+"""A sole with this share of the weight on it does not turn."""
+
 STANDS = 0.2
 """A sole with this share of the weight on it lies on the ground, whose height is known."""
 
@@ -81,6 +84,7 @@ class Estimator:
         """
         self.robot, self.delay, self._ground = robot, delay, ground
         self._model, self._data = robot.pin, robot.pin.createData()
+        self.joints, self._moving = Joints(q[7:]), np.zeros(robot.pin.nv)
         self._frames = [robot.soles[foot].frame for foot in FEET]
         self._own = np.array(q)
         self._own[:3], self._own[3:7] = 0.0, (0.0, 0.0, 0.0, 1.0)
@@ -89,7 +93,6 @@ class Estimator:
         soles = q[:3] + self._legs() @ rotation.T
         self.base = BaseFilter(noise.base, rotation, q[:3], soles, TILT)
         self.soles = SoleForces(self._weight, noise.soles)
-        self.joints = Joints(q[7:])
         self._gyro = Channel("axis of the gyro", "rad/s", 50.0)
         self._accelerometer = Channel("axis of the accelerometer", "m/s^2", 1000.0)
         self._last_gyro, self._last_force = np.zeros(3), np.array((0.0, 0.0, robot.gravity))
@@ -123,15 +126,26 @@ class Estimator:
         carried = self.robot.mass * float(base.rotation[2] @ (force - base.accelerometer_bias))
         self.soles.update(read, carried, legs @ base.rotation[2], max(dt, LEAST_TIME))
         base.correct(legs, self._heights())
+        standing = int(np.argmax(self.soles.loads))
+        if self.soles.loads[standing] > STANDS_ALONE:
+            base.correct_turn(gyro, self._turn(standing))
         wrench = self._wrenches()
         return self._ahead(gyro - base.gyro_bias, acceleration, wrench)
 
     def _legs(self) -> Array:
         """Return the places (2, 3) of the soles from the base, base axes, m."""
-        pin.forwardKinematics(self._model, self._data, self._own)
+        self._moving[6:] = self.joints.speeds
+        pin.forwardKinematics(self._model, self._data, self._own, self._moving)
         return np.array(
             [pin.updateFramePlacement(self._model, self._data, f).translation for f in self._frames]
         )
+
+    def _turn(self, foot: int) -> Array:
+        """Return the base's turning rate (3,), base axes, rad/s, if this sole does not turn."""
+        sole = self._frames[foot]
+        turning = pin.getFrameVelocity(self._model, self._data, sole).angular
+        value: Array = -(self._data.oMf[sole].rotation @ turning)
+        return value
 
     def _wrenches(self) -> dict[Foot, Array]:
         """Return the soles' wrenches in world axes."""

@@ -15,10 +15,10 @@ JUMP = 0.5
 """Nor does it jump by this (rad) from one tick to the next."""
 
 SAME = 3
-"""An encoder that reads the same so many ticks in a row, while its joint is to move, is stuck."""
+"""An encoder that reads the same so many ticks in a row, when its joint was moving, is stuck."""
 
 MOVES = 0.5
-"""Planned speed (rad/s) from which a joint is to move: many steps of any encoder in a tick."""
+"""Speed (rad/s) from which a joint was moving: it cannot have stopped within a tick."""
 
 FOLLOW = 0.05
 """The planned speed is drawn to the measured one with this time constant (s)."""
@@ -35,7 +35,7 @@ class Joints:
         """Begin at rest at these angles (n,), rad."""
         self.angles, self.speeds = np.array(angles), np.zeros(len(angles))
         self._planned, self._read = np.zeros(len(angles)), np.array(angles)
-        self._same = np.zeros(len(angles), dtype=int)
+        self._same, self._moved = np.zeros(len(angles), dtype=int), np.zeros(len(angles))
         self._encoders = Channel("the encoder of joint", "rad", 1e3, JUMP)
         self._rates = Channel("the speed of joint", "rad/s", FASTEST)
 
@@ -56,9 +56,11 @@ class Joints:
             SensorError: a joint has told nothing for too long.
         """
         self._planned = self._planned + dt * acceleration
-        self._same = np.where(m.angles == self._read, self._same + 1, 0)
+        same = m.angles == self._read
+        self._same = np.where(same, self._same + 1, 0)
+        self._moved = np.where(same, self._moved, m.speeds)
         self._read = m.angles
-        stuck = (self._same >= SAME) & (np.abs(self._planned) > MOVES)
+        stuck = (self._same >= SAME) & (np.abs(self._moved) > MOVES)
         angles, speeds = m.angles, m.speeds
         if stuck.any():
             angles = np.where(stuck, np.nan, angles)

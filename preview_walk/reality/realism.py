@@ -167,6 +167,7 @@ def sensor_noise(realism: Realism, leg: float, samples: int, dt: float) -> Senso
         gyro_bias=max(imu.gyro_bias, 1e-4),
         accelerometer_bias=max(imu.accelerometer_bias, 1e-3),
         contact=CONTACT_WANDER,
+        turn=SOLE_TURN,
         leg=hypot(LEG_PLACE, 2.0 * leg * error),
         ground=hypot(GROUND_HEIGHT, 2.0 * leg * encoders.bias) * sqrt(SAME_GROUND / dt),
     )
@@ -178,6 +179,9 @@ LEAST_GYRO, LEAST_FORCE = 1e-3, 2e-2
 
 CONTACT_WANDER = 0.003
 """A sole that stands creeps and rocks by so much (m) in a second, on any ground."""
+
+SOLE_TURN = 0.15
+"""A standing sole rocks by so much (rad/s) from tick to tick, if by little altogether."""
 
 LEG_PLACE = 0.001
 """A sole's centre is not known better (m): soles sink in and roll."""

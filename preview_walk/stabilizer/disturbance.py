@@ -21,8 +21,8 @@ ROUGH_SMOOTHING_TIME = 0.1
 """The same on ground that is not known: soles rock on edges at some 10 Hz, and an estimate that
 follows them moves the wanted centre of pressure to and fro, which rocks them on."""
 
-STEADY_TIME = 1.0
-"""Time constant (s) over which a disturbance comes to be taken for one that stays: two steps, so
+STEADY_TIME = 0.5
+"""Time constant (s) over which a disturbance comes to be taken for one that stays: a step, so
 that what every step does cancels out, and a push of tenths of a second hardly counts."""
 
 MOST_STEADY = 0.15
