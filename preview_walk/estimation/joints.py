@@ -58,13 +58,15 @@ class Joints:
         self._planned = self._planned + dt * acceleration
         same = m.angles == self._read
         self._same = np.where(same, self._same + 1, 0)
-        self._moved = np.where(same, self._moved, m.speeds)
         self._read = m.angles
-        stuck = (self._same >= SAME) & (np.abs(self._moved) > MOVES)
+        doubtful = same & (np.abs(self._moved) > MOVES)
+        stuck = doubtful & (self._same >= SAME)
         angles, speeds = m.angles, m.speeds
         if stuck.any():
             angles = np.where(stuck, np.nan, angles)
             speeds = np.where(stuck, np.nan, speeds)
         self.speeds = self._rates.take(speeds, self._planned, dt)
         self.angles = self._encoders.take(angles, self.angles + dt * self.speeds, dt)
-        self._planned = self._planned + (self.speeds - self._planned) * min(1.0, dt / FOLLOW)
+        self._moved = np.where(same, self._moved, self.speeds)
+        drawn = np.where(doubtful, 0.0, min(1.0, dt / FOLLOW))
+        self._planned = self._planned + drawn * (self.speeds - self._planned)

@@ -59,7 +59,7 @@ class Channel:
             return reading
         self.refused += 1
         self._missing += dt
-        if self._missing > LONGEST:
+        if self._missing > LONGEST + 1e-9:
             worst = int(np.flatnonzero(~good)[0])
             raise SensorError(
                 f"{self.name} {worst} has given nothing that can be for {self._missing:.2f} s, "

@@ -18,6 +18,9 @@ from preview_walk.types import FEET, Array
 
 AXES = ("x", "y", "z")
 
+MOST_SPEED = 1e3
+"""What a drive takes for the speed of a joint at most, rad/s."""
+
 
 class Delayed:
     """What was sampled, to be read later: at a rate, after a delay."""
@@ -125,7 +128,10 @@ class Instruments:
         rng, imu = self._rng, realism.imu
         angles = self._spoilt("encoder", self._angles(data), t)
         raw = (angles - self._before) / dt
-        self._before = angles
+        # A drive takes no difference that cannot be, or its filter would keep it for ever.
+        can_be = np.abs(raw) < MOST_SPEED
+        raw = np.where(can_be, raw, self._speed)
+        self._before = np.where(can_be | ~np.isfinite(self._before), angles, self._before)
         band = realism.encoders.bandwidth
         exact = band == 0.0
         target = np.array(data.qvel[6:]) if exact else raw

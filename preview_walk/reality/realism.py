@@ -29,7 +29,6 @@ class Realism:
         motors: of the joints.
         mismatch: of the physics and the controller's model.
         faults: what fails, and when.
-        self_collision: whether the robot's own shapes touch each other.
     """
 
     encoders: Encoders = field(default_factory=Encoders)
@@ -38,7 +37,6 @@ class Realism:
     motors: Motors = field(default_factory=Motors)
     mismatch: Mismatch = field(default_factory=Mismatch)
     faults: tuple[Fault, ...] = ()
-    self_collision: bool = False
 
     def __post_init__(self) -> None:
         """Check the parts."""
