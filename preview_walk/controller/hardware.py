@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.disturbance import ROUGH_SMOOTHING_TIME, SMOOTHING_TIME
+from preview_walk.tracking.contacts import Edge
 from preview_walk.tracking.whole_body import WholeBodyController
-from preview_walk.types import Array
+from preview_walk.types import FEET, Array
 
 FOLLOW = 0.05
 """The planned speed of a joint is drawn to the measured one with this time constant (s)."""
@@ -20,19 +22,39 @@ COMPENSATED = 0.9
 """Share of the dry friction that is compensated: too much of it would drive the joints."""
 
 
+PER_DELAY = 8.0
+"""Time constant of the disturbance's estimate over the delay of its answer."""
+
+SPREAD = 2.0
+"""So many standard deviations of a motor's constant are counted on."""
+
+
 @dataclass(frozen=True, eq=False)
 class Hardware:
     """What a data sheet says of the robot.
 
     Attributes:
         delay: from a state to the torques that answer it, s.
-        velocity_noise: standard deviation of the CoM's estimated velocity, m/s.
         friction: (n,) dry friction of the joints, N·m.
+        error: standard deviation of the motors' constants, share of the torque.
     """
 
     delay: float
-    velocity_noise: float
     friction: Array
+    error: float = 0.0
+
+    def edge(self, robot: Robot) -> Edge:
+        """Return the strips at a sole's edges, along x and y (m), where nothing is to be pressed.
+
+        What an ankle's friction holds back, and what its motor gives too much, moves the centre of
+        pressure by so much. Pressed at its very edge a sole turns over it, and the ankle's friction
+        keeps it there.
+        """
+        ankles = [robot.legs[foot].joints[-2:] for foot in FEET]
+        rows = [int(robot.pin.joints[joint].idx_v) - 6 for pair in ankles for joint in pair]
+        stiction = float(self.friction[rows].max()) / (robot.mass * robot.gravity)
+        off = SPREAD * self.error
+        return stiction + off * robot.sole.half_length, stiction + off * robot.sole.half_width
 
 
 class FrictionCompensation:
@@ -70,9 +92,12 @@ class FrictionCompensation:
 
 
 def smoothing_time(hardware: Hardware | None, blind: bool) -> float:
-    """Return the time constant (s) of the disturbance's estimate."""
-    if blind:
-        return ROUGH_SMOOTHING_TIME
-    if hardware is None:
-        return SMOOTHING_TIME
-    return 0.06
+    """Return the time constant (s) of the disturbance's estimate.
+
+    An observer Q = 1 / (T s + 1) whose answer comes late by tau closes a loop of gain
+    exp(-tau s) / (T s). It is stable up to tau = pi T / 2, and robust to what the model does not
+    know where |Q (exp(-tau s) - 1)|, at most about tau / T, is small (Sariyildiz and Ohnishi, "A
+    guide to design disturbance observer", JDSMC 2014): T is `PER_DELAY` times tau.
+    """
+    least = SMOOTHING_TIME if hardware is None else PER_DELAY * hardware.delay
+    return max(least, ROUGH_SMOOTHING_TIME if blind else SMOOTHING_TIME)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections import deque
+from copy import copy
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -16,6 +18,23 @@ from preview_walk.types import Array
 RIPPLES = 12
 """Waves of the torque over a turn of the joint's motor side: pole pairs as seen through a gear are
 many more, but beyond the control's bandwidth they matter less."""
+
+
+def with_rotors(robot: Robot, inertia: float) -> Robot:
+    """Return a robot whose joints have to turn their motors' rotors too, in both engines.
+
+    Args:
+        robot: as its model has it.
+        inertia: kg·m^2 at the joint for each N·m of its largest torque.
+    """
+    if inertia == 0.0:
+        return robot
+    turned = replace(robot, mj=copy(robot.mj), pin=robot.pin.copy())
+    armature = np.maximum(robot.mj.dof_armature[6:], inertia * robot.effort)
+    turned.mj.dof_armature[6:] = armature
+    mujoco.mj_setConst(turned.mj, mujoco.MjData(turned.mj))
+    turned.pin.armature[6:] = armature
+    return turned
 
 
 class Drives:

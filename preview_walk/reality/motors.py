@@ -20,6 +20,9 @@ class Motors(Checked):
             0.01 takes 1 % of the torque at 1 rad/s.
         error: standard deviation of a motor's constant, share of the torque.
         ripple: amplitude of the torque's waves over the angle, share of the largest torque.
+        rotor_inertia: of a rotor as its joint feels it through the gear, kg·m^2 for each N·m of the
+            largest torque. The controller's model has it too; a joint whose model has more armature
+            keeps that.
         strength: share of its largest torque that a motor still has.
     """
 
@@ -29,6 +32,7 @@ class Motors(Checked):
     viscous_friction: float = 0.0
     error: float = 0.0
     ripple: float = 0.0
+    rotor_inertia: float = 0.0
     strength: float = 1.0
 
     @property

@@ -73,6 +73,7 @@ class Realism:
                 viscous_friction=0.0,
                 error=0.02,
                 ripple=0.002,
+                rotor_inertia=1.5e-4,
             ),
             Mismatch(mass=0.05, inertia=0.05, com=0.01, friction=(0.5, 0.9)),
         )
@@ -99,6 +100,7 @@ class Realism:
                 viscous_friction=0.0,
                 error=0.04,
                 ripple=0.004,
+                rotor_inertia=1.5e-4,
             ),
             Mismatch(mass=0.1, inertia=0.1, com=0.02, friction=(0.4, 1.0), softness=0.03),
         )

@@ -9,7 +9,7 @@ import numpy as np
 
 from preview_walk.arguments import instance_of
 from preview_walk.estimation.measurement import Measurement
-from preview_walk.reality.drives import Drives
+from preview_walk.reality.drives import Drives, with_rotors
 from preview_walk.reality.instruments import Instruments
 from preview_walk.reality.mismatch import misfit
 from preview_walk.reality.realism import Realism
@@ -37,18 +37,21 @@ class RealWorld(World):
             seed: of all errors; the same seed gives the same robot and the same noise.
             settings: keyword arguments of `World`.
         """
-        super().__init__(robot, **settings)
+        instance_of(robot, Robot, "robot")
         self.realism = instance_of(realism, Realism, "realism")
+        super().__init__(with_rotors(robot, realism.motors.rotor_inertia), **settings)
         mismatch = realism.mismatch
         masses, floor, motors, sensors = (
             np.random.default_rng(part) for part in np.random.SeedSequence(seed).spawn(4)
         )
+        # A model with ground was made anew from the robot's sources, which know of no rotors.
+        self.model.dof_armature[6:] = self.robot.mj.dof_armature[6:]
         misfit(self.model, mismatch, masses)
         if mismatch.friction is not None:
             self.model.geom_friction[:, 0] = floor.uniform(*mismatch.friction)
             self.friction = mismatch.friction[0]
-        self._drives = Drives(robot, self.model, realism, motors)
-        self._instruments = Instruments(robot, self.model, realism, sensors)
+        self._drives = Drives(self.robot, self.model, realism, motors)
+        self._instruments = Instruments(self.robot, self.model, realism, sensors)
 
     def place(self, q: Array, t: float) -> None:
         """Stand the robot still in configuration q (nq,) at time t (s): only before the run."""

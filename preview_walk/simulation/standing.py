@@ -107,7 +107,8 @@ def hardware_of(plant: Plant) -> Hardware | None:
         return None
     realism = plant.realism
     friction = realism.motors.dry_friction * plant.robot.effort
-    return Hardware(realism.delay, 0.01, friction)
+    late = realism.delay + realism.speed_lag
+    return Hardware(late, friction, realism.motors.error)
 
 
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:

@@ -53,13 +53,22 @@ def wrench_cone(half_length: float, half_width: float, friction: float) -> Array
     return np.array(rows, dtype=float)
 
 
-def sole_cone(sole: RobotSole, friction: float) -> Array:
-    """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN`."""
+Edge = tuple[float, float]
+"""Widths (m) of the strips at a sole's ends and along its sides where nothing is to be pressed."""
+
+NO_EDGE: Edge = (0.0, 0.0)
+
+
+def sole_cone(sole: RobotSole, friction: float, edge: Edge = NO_EDGE) -> Array:
+    """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN` and by an edge."""
     keep = 1.0 - COP_MARGIN
-    return wrench_cone(keep * sole.half_length, keep * sole.half_width, friction)
+    x, y = keep * sole.half_length - edge[0], keep * sole.half_width - edge[1]
+    return wrench_cone(x, y, friction)
 
 
-def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Array, Array]:
+def contact_rows(
+    soles: Sequence[RobotSole], friction: float, edge: Edge = NO_EDGE
+) -> tuple[Array, Array, Array]:
     """Return C (17 k, 6 k), low and high (17 k,): low <= C @ wrenches <= high for k soles.
 
     Per sole the `CONE_ROWS` rows of its cone and a last one for the normal force, whose upper
@@ -69,7 +78,7 @@ def contact_rows(soles: Sequence[RobotSole], friction: float) -> tuple[Array, Ar
     rows = np.zeros((count * len(soles), 6 * len(soles)))
     low, high = np.full(len(rows), -np.inf), np.zeros(len(rows))
     for k, sole in enumerate(soles):
-        rows[count * k : count * k + CONE_ROWS, 6 * k : 6 * k + 6] = sole_cone(sole, friction)
+        rows[count * k : count * k + CONE_ROWS, 6 * k : 6 * k + 6] = sole_cone(sole, friction, edge)
         last = count * k + CONE_ROWS
         rows[last, 6 * k + 2], low[last], high[last] = 1.0, 0.0, np.inf
     return rows, low, high

@@ -14,7 +14,7 @@ from preview_walk.arguments import instance_of, positive_number, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.building.leg import leg_joints
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.contacts import load_shares
+from preview_walk.tracking.contacts import NO_EDGE, Edge, load_shares
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_state
@@ -67,7 +67,13 @@ class WholeBodyController:
     """
 
     def __init__(
-        self, robot: Robot, gains: TrackingGains, friction: float, solver: str = DEFAULT
+        self,
+        robot: Robot,
+        gains: TrackingGains,
+        friction: float,
+        solver: str = DEFAULT,
+        *,
+        edge: Edge = NO_EDGE,
     ) -> None:
         """Make the tasks of a robot.
 
@@ -76,13 +82,14 @@ class WholeBodyController:
             gains: weights and gains of the tasks.
             friction: Coulomb friction between soles and ground.
             solver: "osqp", kept warm from tick to tick, "daqp", or a backend of qpsolvers.
+            edge: (along x, along y) from which the soles' centres of pressure keep away besides, m.
 
         Raises:
             InvalidInput: there is no such solver.
         """
         self.robot = instance_of(robot, Robot, "robot")
         self.gains = instance_of(gains, TrackingGains, "gains")
-        self.friction = positive_number(friction, "friction")
+        self.friction, self._edge = positive_number(friction, "friction"), edge
         if not isinstance(solver, str) or len(solver) > 80:
             raise InvalidInput(f"solver must be a short name, got {shown(solver)}.", "solver")
         self.backend: Backend = make_backend(solver)
@@ -200,6 +207,7 @@ class WholeBodyController:
                 self.posture,
                 wrench_weight=self.gains.wrench_weight,
                 friction=self.friction,
+                edge=self._edge,
             )
             self._problems[contacts] = problem
         problem.fill(self.dynamics, normal_limit, self._shares(contacts), self.settle)

@@ -27,7 +27,7 @@ import qpsolvers
 from scipy.linalg.blas import dsymv
 
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.contacts import contact_rows
+from preview_walk.tracking.contacts import NO_EDGE, Edge, contact_rows
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
@@ -86,6 +86,7 @@ class TickProblem:
         *,
         wrench_weight: float,
         friction: float,
+        edge: Edge = NO_EDGE,
     ) -> None:
         self.robot = robot
         self.contacts = tuple(contacts)
@@ -119,7 +120,7 @@ class TickProblem:
         self._wrench_weight = wrench_weight / self.unit**2
         self.wrench_weight = self._wrench_weight.copy()
         self.contact_rows, self.contact_low, self.contact_high = contact_rows(
-            [robot.soles[foot] for foot in self.contacts], friction
+            [robot.soles[foot] for foot in self.contacts], friction, edge
         )
         self._normal_high = self.contact_high[16::17]
         self._set_limits(robot)
