@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from preview_walk.controller.feet import Feet
+from preview_walk.controller.hardware import Hardware, dcm_rate
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.support import Sole
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
@@ -40,7 +42,12 @@ class Balance:
     """
 
     def __init__(
-        self, robot: Robot, omega: float, gains: TrackingGains, lag: float, leans: bool = False
+        self,
+        robot: Robot,
+        omega: float,
+        gains: TrackingGains,
+        lag: float,
+        hardware: Hardware | None = None,
     ) -> None:
         """Begin with a robot that nothing pushes.
 
@@ -49,13 +56,14 @@ class Balance:
             omega: natural frequency of the pendulum, 1/s.
             gains: of the feedback.
             lag: time constant of the disturbance's estimate, s.
-            leans: whether a disturbance that stays is leant against.
+            hardware: of the robot, if it is not perfect: then a disturbance that stays is leant
+                against, and the feedback is as fast as delay and noise allow.
         """
         lean, sole = LEAN * robot.leg_length, robot.sole
-        self._sole = sole
+        self._sole = sole if hardware is None else hardware.pressed(robot)
         self._reach = Sole(sole.half_length + lean, sole.half_width + lean)
         self._rates = FeedbackGains(omega, gains.dcm, gains.height)
-        self._lag, self._leans = lag, leans
+        self._lag, self._hardware = lag, hardware
         self._limits = step_limits(robot.leg_length, robot.step_width, sole, omega)
         self.forget()
 
@@ -71,7 +79,11 @@ class Balance:
         return value
 
     def feedback(
-        self, state: CentroidalState, reference: ComReference, standing: Sequence[Array]
+        self,
+        state: CentroidalState,
+        reference: ComReference,
+        standing: Sequence[Array],
+        spread: float = 0.0,
     ) -> ComFeedback:
         """Return what leads the CoM back to its reference.
 
@@ -79,11 +91,14 @@ class Balance:
             state: the measured motion of the CoM.
             reference: of the CoM now.
             standing: measured poses (4, 4) of the soles in contact, world, m.
+            spread: standard deviation of the measured velocity, m/s.
         """
-        support = Support(standing, self._sole, self._reach)
-        if self._leans:
+        support, rates = Support(standing, self._sole, self._reach), self._rates
+        if self._hardware is not None:
             reference = leaning(reference, self.lean)
-        return com_feedback(state, reference, self.disturbance.rate, support, self._rates)
+            dcm, delay, width = rates.dcm, self._hardware.delay, self._sole.half_width
+            rates = replace(rates, dcm=dcm_rate(dcm, rates.omega, delay, spread, width))
+        return com_feedback(state, reference, self.disturbance.rate, support, rates)
 
     def observe(self, t: float, dynamics: Dynamics, zmp: Array, felt: Array | None = None) -> None:
         """Observe what pushes the robot.
@@ -98,7 +113,7 @@ class Balance:
         omega = self._rates.omega
         dcm = CentroidalState(dynamics.com, dynamics.com_velocity).dcm(omega)
         self.disturbance = observe(self.disturbance, t, dcm, zmp, omega, lag=self._lag)
-        if self._leans and felt is not None:
+        if self._hardware is not None and felt is not None:
             last = self._felt
             self._felt = observe(last, t, dcm, felt, omega, lag=self._lag)
             if last.time is not None:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from preview_walk.geometry.support import Sole
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.disturbance import ROUGH_SMOOTHING_TIME, SMOOTHING_TIME
-from preview_walk.tracking.contacts import Edge
+from preview_walk.tracking.contacts import COP_MARGIN, Edge
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array
 
@@ -24,6 +25,10 @@ COMPENSATED = 0.9
 
 PER_DELAY = 8.0
 """Time constant of the disturbance's estimate over the delay of its answer."""
+
+SURE, PLAY = 3.0, 0.5
+"""So many standard deviations of the estimate's noise should move the wanted ZMP by no more than
+this share of the sole's half width."""
 
 SPREAD = 2.0
 """So many standard deviations of a motor's constant are counted on."""
@@ -55,6 +60,38 @@ class Hardware:
         stiction = float(self.friction[rows].max()) / (robot.mass * robot.gravity)
         off = SPREAD * self.error
         return stiction + off * robot.sole.half_length, stiction + off * robot.sole.half_width
+
+    def pressed(self, robot: Robot) -> Sole:
+        """Return half sizes (m) of what of a sole may be pressed."""
+        keep, (x, y) = 1.0 - COP_MARGIN, self.edge(robot)
+        return Sole(keep * robot.sole.half_length - x, keep * robot.sole.half_width - y)
+
+
+def dcm_rate(wanted: float, omega: float, delay: float, spread: float, half_width: float) -> float:
+    """Return the rate (1/s) of the DCM's feedback that delay and noise allow; never below omega.
+
+    The DCM xi' = omega (xi - p) with p = (1 + k / omega) xi, a lag of tau late, has
+
+        tau s^2 + (1 - omega tau) s + k = 0,
+
+    which is not damped critically any more beyond k = (1 - omega tau)^2 / (4 tau). An error of the
+    velocity, of standard deviation sigma, moves the wanted ZMP by (1 + k / omega) sigma / omega:
+    `SURE` times that should be at most `PLAY` of the sole's half width, or the soles are pressed
+    on their edges by noise alone. The lag is that of Morisawa et al., Humanoids 2012.
+
+    Args:
+        wanted: the rate without delay and noise, 1/s.
+        omega: natural frequency of the pendulum, 1/s.
+        delay: tau, s.
+        spread: sigma, m/s.
+        half_width: of what of a sole may be pressed, m.
+    """
+    rates = [wanted]
+    if delay > 0.0:
+        rates.append((1.0 - omega * delay) ** 2 / (4.0 * delay))
+    if spread > 0.0:
+        rates.append(omega * (PLAY * half_width * omega / (SURE * spread) - 1.0))
+    return max(min(rates), min(wanted, omega))
 
 
 class FrictionCompensation:

@@ -118,7 +118,7 @@ class Walker:
         self.feedback = ComFeedback(np.zeros(3), com[:2], com[:2])
         self._planned_until = -np.inf
         lag = smoothing_time(hardware, blind)
-        self.balance = Balance(robot, self.pattern.omega, self.gains, lag, hardware is not None)
+        self.balance = Balance(robot, self.pattern.omega, self.gains, lag, hardware)
         self.airborne = Airborne(robot)
         self._felt = FeltGround(plan)
         self._zmp: Array | None = None
@@ -162,7 +162,9 @@ class Walker:
             raise refused
         self.follow(plan)
 
-    def tick(self, t: float, q: Array, v: Array, wrench: Mapping[Foot, Array]) -> Array:
+    def tick(
+        self, t: float, q: Array, v: Array, wrench: Mapping[Foot, Array], spread: float = 0.0
+    ) -> Array:
         """Return the joint torques (n,) in N·m for the state measured at time t.
 
         Args:
@@ -170,6 +172,7 @@ class Walker:
             q: (nq,) configuration, Pinocchio's conventions.
             v: (nv,) velocity, Pinocchio's conventions.
             wrench: [force; moment] (6,) on each sole about its centre, world axes, N, N·m.
+            spread: standard deviation of the base's horizontal velocity in v, m/s.
 
         Raises:
             StateError: the state cannot be measured: not finite, or absurd.
@@ -192,7 +195,7 @@ class Walker:
             self._walk(t, soles, normal_force)
         self.reference = self.pattern.at(t)
         standing = [soles[foot] for foot in self.feet.standing]
-        self.feedback = self.balance.feedback(state, self.reference, standing)
+        self.feedback = self.balance.feedback(state, self.reference, standing, spread)
         self._set_tasks()
         if self.blind:
             for foot, twist in settling(t, self.feet.states, wrench, self.body):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 import pinocchio as pin
@@ -52,11 +53,13 @@ class Estimate:
         q: (nq,) configuration, Pinocchio's conventions.
         v: (nv,) velocity, Pinocchio's conventions.
         wrench: (6,) per foot, ground on robot: [force; moment about the sole's centre], world axes.
+        spread: standard deviation of the base's horizontal velocity, m/s.
     """
 
     q: Array
     v: Array
     wrench: Mapping[Foot, Array]
+    spread: float = 0.0
 
 
 class Estimator:
@@ -175,4 +178,5 @@ class Estimator:
         if ahead > 0.0:
             q = pin.integrate(self._model, q, ahead * v + (0.5 * ahead * ahead) * acceleration)
             v = v + ahead * acceleration
-        return Estimate(q, v, wrench)
+        x, y = base.covariance[3, 3], base.covariance[4, 4]
+        return Estimate(q, v, wrench, sqrt(0.5 * float(x + y)))

@@ -280,7 +280,7 @@ class Walk:
             before = perf_counter()
             try:
                 seen = self._sight.look(walker)
-                torques = walker.tick(t, seen.q, seen.v, seen.wrench)
+                torques = walker.tick(t, seen.q, seen.v, seen.wrench, seen.spread)
             except PreviewWalkError as stop:
                 self._fall = (t, str(stop))
                 return
