@@ -16,9 +16,11 @@ from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.laying import ROUGH, UNEVEN, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.geometry.poses import pose_at, rpy_of, yaw_of
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
 from preview_walk.pattern.walker_model import WalkerModel
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
@@ -26,7 +28,7 @@ from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import CentroidalState, ComFeedback
 from preview_walk.stabilizer.flight import waiting
-from preview_walk.terrain.ground import Ground
+from preview_walk.terrain.ground import Ground, Plane
 from preview_walk.tracking.contacts import NO_EDGE
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_wrenches
@@ -121,7 +123,6 @@ class Walker:
         self.balance = Balance(robot, self.pattern.omega, self.gains, lag, hardware)
         self.airborne = Airborne(robot)
         self._felt = FeltGround(plan)
-        self._zmp: Array | None = None
         self._friction = None if hardware is None else FrictionCompensation(hardware.friction)
 
     def __repr__(self) -> str:
@@ -181,8 +182,6 @@ class Walker:
         normal_force = {foot: float(wrench[foot][2]) for foot in FEET}
         self.body.update(q, v)
         dynamics = self.body.dynamics
-        if self.hardware is not None:
-            self._zmp = self._felt_zmp(wrench)
         state = CentroidalState(dynamics.com, dynamics.com_velocity)
         soles = {foot: dynamics.soles[foot].pose for foot in FEET}
         self.airborne.feel(t, sum(normal_force.values()) / self.weight, self.body, self.plan)
@@ -192,7 +191,7 @@ class Walker:
         if self.airborne.flight.airborne:
             self._fly(t)
         else:
-            self._walk(t, soles, normal_force)
+            self._walk(t, soles, wrench, normal_force)
         self.reference = self.pattern.at(t)
         standing = [soles[foot] for foot in self.feet.standing]
         self.feedback = self.balance.feedback(state, self.reference, standing, spread)
@@ -204,9 +203,16 @@ class Walker:
         if self._friction is None:
             return torques
         limit = self.robot.effort
-        return np.clip(torques + self._friction.torques(t, self.body), -limit, limit)
+        torques = torques + self._friction.torques(t, self.body)
+        return np.minimum(np.maximum(torques, -limit), limit)
 
-    def _walk(self, t: float, soles: dict[Foot, Array], normal_force: dict[Foot, float]) -> None:
+    def _walk(
+        self,
+        t: float,
+        soles: dict[Foot, Array],
+        wrench: Mapping[Foot, Array],
+        normal_force: dict[Foot, float],
+    ) -> None:
         """Follow the plan, or another one where a landing, a push or the ground asks for it."""
         before = self.feet.states.copy()
         plan = self.airborne.land(t, self.plan, self.body.dynamics)
@@ -214,14 +220,16 @@ class Walker:
             self._land(t, plan)
         if t >= self._planned_until:
             self._planned_until = t + PLANNING_DT - 1e-9
-            self._replan(t)
+            self._replan(t, wrench)
         early = self.feet.follow(t, self.plan, soles, normal_force)
         if self.blind:
             plan = self._felt.feel(t, self.plan, (before, self.feet.states), soles)
             if plan is not None:
                 self.follow(plan)
         if early is not None:
-            plan = self.balance.landed(t, self.plan, early, soles[early])
+            lies = self.blind or self.hardware is None
+            pose = soles[early] if lies else _on_ground(soles[early], self.plan.swing_at(t))
+            plan = self.balance.landed(t, self.plan, early, pose)
             if plan is not None:
                 self.follow(plan)
 
@@ -239,10 +247,11 @@ class Walker:
         self.pattern.land(t, self.body.dynamics.com)
         self.feet.land(t)
 
-    def _replan(self, t: float) -> None:
+    def _replan(self, t: float, wrench: Mapping[Foot, Array]) -> None:
         """Walk by another plan where a push asks for it; without ground to step on, wait."""
         dynamics = self.body.dynamics
-        self.balance.observe(t, dynamics, self.feedback.sole_zmp, self._zmp)
+        felt = None if self.hardware is None else self._felt_zmp(wrench)
+        self.balance.observe(t, dynamics, self.feedback.sole_zmp, felt)
         if self.airborne.flight.flies or (self.blind and self.feet.searching):
             plan = waiting(self.plan, t)
             if plan is not None:
@@ -273,3 +282,17 @@ class Walker:
                 body.settle[foot] = np.zeros(6)
                 body.settle[foot][:3] = -target.sink * body.dynamics.soles[foot].rotation[2]
         body.torso.rotation, body.torso.velocity = torso_motion(targets)
+
+
+def _on_ground(sole: Array, step: Footstep | None) -> Array:
+    """Return the pose (4, 4) of a sole that has come down on ground that is known to the plan.
+
+    It touches with an edge first, and tilted as an ankle's friction has left it: steps planned from
+    there would all be in the air.
+    """
+    if step is None:
+        return sole
+    x, y, _ = sole[:3, 3].tolist()
+    roll, pitch, _ = rpy_of(step.pose)
+    height = Plane.through(step.pos, step.pose[:3, 2]).height(x, y)
+    return pose_at(x, y, yaw_of(sole), float(height), pitch, roll)

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from math import cos, sin, sqrt
 
 import numpy as np
+from scipy.linalg.lapack import dposv
 
 from preview_walk.constants import GRAVITY
 from preview_walk.types import Array
@@ -28,6 +29,19 @@ SIZE = 21
 _R, _V, _P, _LEFT, _RIGHT, _G, _A = (slice(3 * k, 3 * k + 3) for k in range(7))
 _SOLES = (_LEFT, _RIGHT)
 _I3 = np.eye(3)
+
+# Four vectors become four matrices of the cross product, one below the other: entry _SKEW of the
+# (12, 3) is _SKEW_SIGN times entry _SKEW_OF of the (4, 3).
+_ONE = ((1, 2, -1.0), (2, 1, 1.0), (3, 2, 1.0), (5, 0, -1.0), (6, 1, -1.0), (7, 0, 1.0))
+_SKEW = np.array([9 * k + at for k in range(4) for at, _, _ in _ONE])
+_SKEW_OF = np.array([3 * k + of for k in range(4) for _, of, _ in _ONE])
+_SKEW_SIGN = np.array([sign for _ in range(4) for _, _, sign in _ONE])
+
+ROWS = 11
+"""Numbers of a measurement: both soles' places, the ground's heights under them, a turning rate."""
+
+UNSEEN = 1e6
+"""Variance of what was not measured."""
 
 BEARS = 0.3
 """Below this share of the weight a sole rolls and slides, the more the less it bears."""
@@ -65,12 +79,6 @@ class FilterNoise:
     turn: float
     leg: float
     ground: float
-
-
-def skew(x: Array) -> Array:
-    """Return the matrix (3, 3) of the cross product with x (3,)."""
-    a, b, c = x.tolist()
-    return np.array(((0.0, -c, b), (c, 0.0, -a), (-b, a, 0.0)))
 
 
 def rotation_of(angle: Array) -> tuple[Array, Array]:
@@ -118,7 +126,14 @@ class BaseFilter:
         spread[:2], spread[2], spread[_V] = tilt**2, 1e-8, tilt**2
         spread[_G], spread[_A] = noise.gyro_bias**2, noise.accelerometer_bias**2
         self.covariance = np.diag(spread)
-        self._flow = np.eye(SIZE)
+        self._flow, self._skews = np.eye(SIZE), np.zeros((12, 3))
+        self._look = np.zeros((ROWS, SIZE))
+        for k, sole in enumerate(_SOLES):
+            self._look[3 * k : 3 * k + 3, sole] = _I3
+            self._look[3 * k : 3 * k + 3, _P] = -_I3
+            self._look[6 + k, sole.start + 2] = 1.0
+        self._look[8:, _G] = _I3
+        self._unseen = np.full(ROWS, UNSEEN)
 
     @property
     def velocity(self) -> Array:
@@ -132,16 +147,14 @@ class BaseFilter:
         value: Array = self.vectors[1]
         return value
 
-    def predict(self, gyro: Array, accelerometer: Array, dt: float, loads: Sequence[float]) -> None:
-        """Go on by a time dt (s).
+    def predict(self, gyro: Array, accelerometer: Array, dt: float) -> None:
+        """Go on by a time dt (s); `spread` tells by how much less is known then.
 
         Args:
             gyro: (3,) mean turning rate measured meanwhile, base axes, rad/s.
             accelerometer: (3,) mean specific force, base axes, m/s^2.
             dt: s.
-            loads: share of the weight on each sole: what bears nothing may move.
         """
-        self._spread(dt, loads)
         turn, bend = rotation_of((gyro - self.gyro_bias) * dt)
         # The specific force turns with the base meanwhile: `bend` is the mean of that turn.
         change = self.rotation @ (bend @ (accelerometer - self.accelerometer_bias)) * dt
@@ -150,21 +163,27 @@ class BaseFilter:
         self.vectors[0] += change
         self.rotation = self.rotation @ turn
 
-    def _spread(self, dt: float, loads: Sequence[float]) -> None:
-        """Carry the covariance on by dt (s): F P F' + Q, to first order in dt."""
+    def spread(self, dt: float, steps: int, loads: Sequence[float]) -> None:
+        """Carry the covariance on by dt (s): F P F' + Q, to first order in dt.
+
+        Args:
+            dt: of all steps since the last time, s.
+            steps: of `predict` in that time, each with noise of its own.
+            loads: share of the weight on each sole: what bears nothing may move.
+        """
         noise, f = self.noise, self._flow
         # e_v' = g x e_R and e_p' = e_v; the biases come in through the adjoint.
         f[3, 1], f[4, 0] = GRAVITY * dt, -GRAVITY * dt
         f[6, 3] = f[7, 4] = f[8, 5] = dt
         turn = -dt * self.rotation
         f[_R, _G] = f[_V, _A] = turn
-        for k, vector in enumerate(self.vectors):
-            f[3 * k + 3 : 3 * k + 6, _G] = skew(vector) @ turn
+        self._skews.reshape(-1)[_SKEW] = self.vectors.reshape(-1)[_SKEW_OF] * _SKEW_SIGN
+        f[3:15, _G] = self._skews @ turn
         p = f @ self.covariance @ f.T
         gyro = f[:15, _G]
-        p[:15, :15] += noise.gyro**2 * (gyro @ gyro.T)
+        p[:15, :15] += (noise.gyro**2 / steps) * (gyro @ gyro.T)
         more = np.zeros(SIZE)
-        more[_V] = (noise.accelerometer * dt) ** 2
+        more[_V] = (noise.accelerometer * dt) ** 2 / steps
         for sole, load in zip(_SOLES, loads, strict=True):
             more[sole] = self._wander(load) ** 2 * dt
         more[_G], more[_A] = noise.gyro_walk**2 * dt, noise.accelerometer_walk**2 * dt
@@ -177,52 +196,47 @@ class BaseFilter:
             return self.noise.contact
         return min(FREE, self.noise.contact * (BEARS / max(load, 1e-3)) ** 2)
 
-    def correct(self, legs: Array, heights: Sequence[float | None]) -> None:
-        """Take in where the legs say that the soles are.
+    def correct(
+        self,
+        legs: Array,
+        heights: Sequence[float | None],
+        turning: tuple[Array, Array] | None = None,
+    ) -> None:
+        """Take in where the legs say that the soles are, and how the base turns over them.
+
+        A sole is no point: it does not turn where it stands, so that the base turns as the leg's
+        joints say, and the gyro's bias shows. Without this the bias about the vertical shows only
+        while both soles stand.
 
         Args:
             legs: (2, 3) places of the soles from the base's origin, base axes, m.
             heights: of the ground under each sole where it is known and stood on, m, or None.
+            turning: (3,) turning rate of the base as the gyro measures it, and as the joints of a
+                standing leg have it, base axes, rad/s; None where no leg stands alone.
         """
-        p, vectors = self.covariance, self.vectors
-        innovation = np.zeros(8)
+        p, vectors, look = self.covariance, self.vectors, self._look
+        innovation, spread = np.zeros(ROWS), self._unseen.copy()
         innovation[:6] = (legs @ self.rotation.T - vectors[2:] + vectors[1]).reshape(6)
-        seen = np.empty((SIZE, 8))
-        spread = np.full(8, self.noise.leg**2)
+        spread[:6] = self.noise.leg**2
         for k, sole in enumerate(_SOLES):
             self._let_go(sole, innovation[3 * k : 3 * k + 3])
-            seen[:, 3 * k : 3 * k + 3] = p[:, sole] - p[:, _P]
             x, y, z = vectors[2 + k].tolist()
+            look[6 + k, 0], look[6 + k, 1] = y, -x
             height = heights[k]
-            seen[:, 6 + k] = y * p[:, 0] - x * p[:, 1] + p[:, sole.start + 2]
-            innovation[6 + k] = 0.0 if height is None else height - z
-            spread[6 + k] = 1e6 if height is None else self.noise.ground**2
-        s = np.empty((8, 8))
-        for k, sole in enumerate(_SOLES):
-            s[3 * k : 3 * k + 3] = seen[sole] - seen[_P]
-            x, y, _ = vectors[2 + k].tolist()
-            s[6 + k] = y * seen[0] - x * seen[1] + seen[sole.start + 2]
-        s.reshape(-1)[::9] += spread
-        gain = np.linalg.solve(s, seen.T)
+            if height is not None:
+                innovation[6 + k], spread[6 + k] = height - z, self.noise.ground**2
+        if turning is not None:
+            innovation[8:] = turning[0] - self.gyro_bias - turning[1]
+            spread[8:] = self.noise.turn**2
+        seen = p @ look.T
+        s = look @ seen
+        s.reshape(-1)[:: ROWS + 1] += spread
+        _, gain, failed = dposv(s, seen.T)
+        if failed:  # s is positive definite but for rounding, which this solver does not mind
+            gain = np.linalg.solve(s, seen.T)
         p = p - seen @ gain
         self.covariance = 0.5 * (p + p.T)
         self._move(innovation @ gain)
-
-    def correct_turn(self, gyro: Array, leg: Array) -> None:
-        """Take in how a leg turns on a sole that stands: it tells the gyro's bias.
-
-        A sole is no point: it does not turn where it stands, so that the base turns as the leg's
-        joints say. Without this the bias about the vertical shows only while both soles stand.
-
-        Args:
-            gyro: (3,) measured turning rate, base axes, rad/s.
-            leg: (3,) the base's as the joints of the standing leg have it, likewise.
-        """
-        p = self.covariance
-        s = p[_G, _G] + self.noise.turn**2 * _I3
-        gain = np.linalg.solve(s, p[_G])
-        self.covariance = p - p[:, _G] @ gain
-        self._move((gyro - self.gyro_bias - leg) @ gain)
 
     def _let_go(self, sole: slice, innovation: Array) -> None:
         """Let a sole's place be free where it is too far from where it stood: it has slipped."""

@@ -27,6 +27,8 @@ STANDS_ALONE = 0.6
 STANDS = 0.2
 """A sole with this share of the weight on it lies on the ground, whose height is known."""
 
+CORRECTED = 4
+"""The legs are taken in at every so manieth tick; the IMU leads the state on at every one."""
 
 LEAST_TIME = 1e-3
 """Time (s) for which the first readings of a run stand."""
@@ -98,6 +100,7 @@ class Estimator:
         self.soles = SoleForces(self._weight, noise.soles)
         self._gyro = Channel("axis of the gyro", "rad/s", 50.0)
         self._accelerometer = Channel("axis of the accelerometer", "m/s^2", 1000.0)
+        self._since, self._steps = 0.0, 0
         self._last_gyro, self._last_force = np.zeros(3), np.array((0.0, 0.0, robot.gravity))
 
     @property
@@ -123,17 +126,26 @@ class Estimator:
         self._last_gyro, self._last_force = gyro, force
         base = self.base
         if dt > 0.0:
-            base.predict(gyro, force, dt, self.soles.loads)
+            base.predict(gyro, force, dt)
+            self._since, self._steps = self._since + dt, self._steps + 1
         legs = self._legs()
         read = np.array([m.wrench[foot] for foot in FEET])
         carried = self.robot.mass * float(base.rotation[2] @ (force - base.accelerometer_bias))
         self.soles.update(read, carried, legs @ base.rotation[2], max(dt, LEAST_TIME))
-        base.correct(legs, self._heights())
-        standing = int(np.argmax(self.soles.loads))
-        if self.soles.loads[standing] > STANDS_ALONE:
-            base.correct_turn(gyro, self._turn(standing))
+        if self._steps in (0, CORRECTED):
+            self._correct(gyro, legs)
         wrench = self._wrenches()
         return self._ahead(gyro - base.gyro_bias, acceleration, wrench)
+
+    def _correct(self, gyro: Array, legs: Array) -> None:
+        """Take in what the legs tell, and how much less is known since they last did."""
+        loads, base = self.soles.loads, self.base
+        if self._steps:
+            base.spread(self._since, self._steps, loads)
+        self._since, self._steps = 0.0, 0
+        standing = 0 if loads[0] > loads[1] else 1
+        alone = loads[standing] > STANDS_ALONE
+        base.correct(legs, self._heights(), (gyro, self._turn(standing)) if alone else None)
 
     def _legs(self) -> Array:
         """Return the places (2, 3) of the soles from the base, base axes, m."""

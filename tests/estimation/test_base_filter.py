@@ -65,8 +65,9 @@ def test_a_small_error_grows_as_the_covariance_has_it() -> None:
         base.rotation = Rotation.from_rotvec((0.1, 0.2, 0.9)).as_matrix()
         base.vectors[0] = 0.4, 0.2, -0.1
         truth = moved(base, error)
-        base.predict(gyro, force, DT, (0.5, 0.5))
-        truth.predict(gyro, force, DT, (0.5, 0.5))
+        base.spread(DT, 1, (0.5, 0.5))
+        base.predict(gyro, force, DT)
+        truth.predict(gyro, force, DT)
         # Second order in the time of a tick is left out of the flow.
         np.testing.assert_allclose(error_of(base, truth), base._flow @ error, atol=1e-6 * 4e-5)
 
@@ -101,8 +102,8 @@ def swaying(seed: int, seconds: float) -> list[tuple[Array, Array]]:
             gyro + start[0] + NOISE.gyro * rng.standard_normal(3),
             force + start[1] + NOISE.accelerometer * rng.standard_normal(3),
             DT,
-            (0.5, 0.5),
         )
+        base.spread(DT, 1, (0.5, 0.5))
         legs = turn[1].inv().apply(soles - spot(t1)) + NOISE.leg * rng.standard_normal((2, 3))
         base.correct(legs, (None, None))
         velocity = np.array((0.0, speed[1], 0.0))
@@ -131,9 +132,11 @@ def test_the_errors_are_those_that_the_covariance_says() -> None:
 
 def test_a_standing_leg_tells_the_bias_of_the_gyro() -> None:
     base, bias = started(), np.array((0.01, -0.02, 0.015))
+    legs = base.vectors[2:] - base.position
     for _ in range(2000):
-        base.predict(bias, np.array((0.0, 0.0, GRAVITY)), DT, (0.5, 0.5))
-        base.correct_turn(bias, np.zeros(3))
+        base.predict(bias, np.array((0.0, 0.0, GRAVITY)), DT)
+        base.spread(DT, 1, (0.5, 0.5))
+        base.correct(legs, (None, None), (bias, np.zeros(3)))
     np.testing.assert_allclose(base.gyro_bias, bias, atol=2e-3)
 
 
@@ -143,7 +146,8 @@ def test_a_sole_that_slips_does_not_throw_the_base(load: float) -> None:
     base = started()
     soles = base.vectors[2:].copy()
     for k in range(400):
-        base.predict(np.zeros(3), np.array((0.0, 0.0, GRAVITY)), DT, (0.5, load))
+        base.predict(np.zeros(3), np.array((0.0, 0.0, GRAVITY)), DT)
+        base.spread(DT, 1, (0.5, load))
         if k == 200:
             soles[1, 0] += 0.05
         base.correct(soles - np.array((2.0, 1.0, 1.0)), (None, None))
