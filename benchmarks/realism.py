@@ -4,7 +4,7 @@
     python benchmarks/realism.py --kind faults --robot g1
 
 "turning" walks 20 s at 0.5 m/s, turning left and then right; "random" walks 20 s by random
-commands over unseen blocks of 1 cm with a push in a random direction every 4 s; "faults" are single
+commands over unseen ground of 1 cm with a push in a random direction every 4 s; "faults" are single
 faults of a robot of the laboratory. One line a walk: true CoM error (rms, mm; x, y along the
 heading, z), error of the base's estimated velocity (mm/s), drift (% of the way), and whether it
 fell. Walks that are in the file already are not walked again; the last lines sum up.
@@ -79,6 +79,13 @@ def realism_of(case: Case, robot: pw.Robot) -> pw.Realism | None:
     return realism.with_fault(replace(fault, which=knee if fault.which == "KNEE" else fault.which))
 
 
+def uneven(rng: np.random.Generator) -> pw.HeightField:
+    """Return ground of random heights within 1 cm, 0.4 m apart, level where the robot starts."""
+    heights = rng.uniform(-0.01, 0.01, (61, 61))
+    heights[28:33, 28:33] = 0.0
+    return pw.HeightField(heights, 0.4, -12.0, -12.0)
+
+
 def walk(case: Case) -> dict[str, Any]:
     """Walk a case; return its figures."""
     robot = robot_of(case.robot)
@@ -92,8 +99,7 @@ def walk(case: Case) -> dict[str, Any]:
             ((speed * float(a), 0.3 * speed * float(b), 0.3 * float(c)), 4.0)
             for a, b, c in rng.uniform((-0.4, -1, -1), 1, (5, 3))
         ]
-        ground = pw.blocks(height=0.01, seed=case.seed)
-        settings |= {"pushes": pushes, "ground": ground, "blind": True}
+        settings |= {"pushes": pushes, "ground": uneven(rng), "blind": True}
     if case.kind == "faults":
         commands = [((speed, 0.0, 0.1), 10.0)]
         if case.fault == "wind of a tenth":

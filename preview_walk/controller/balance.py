@@ -60,7 +60,8 @@ class Balance:
                 against, and the feedback is as fast as delay and noise allow.
         """
         lean, sole = LEAN * robot.leg_length, robot.sole
-        self._sole = sole if hardware is None else hardware.pressed(robot)
+        self._sole = sole
+        self._width = sole.half_width if hardware is None else hardware.pressed_width(robot)
         self._reach = Sole(sole.half_length + lean, sole.half_width + lean)
         self._rates = FeedbackGains(omega, gains.dcm, gains.height)
         self._lag, self._hardware = lag, hardware
@@ -96,8 +97,8 @@ class Balance:
         support, rates = Support(standing, self._sole, self._reach), self._rates
         if self._hardware is not None:
             reference = leaning(reference, self.lean)
-            dcm, delay, width = rates.dcm, self._hardware.delay, self._sole.half_width
-            rates = replace(rates, dcm=dcm_rate(dcm, rates.omega, delay, spread, width))
+            delay, width = self._hardware.delay, self._width
+            rates = replace(rates, dcm=dcm_rate(rates.dcm, rates.omega, delay, spread, width))
         return com_feedback(state, reference, self.disturbance.rate, support, rates)
 
     def observe(self, t: float, dynamics: Dynamics, zmp: Array, felt: Array | None = None) -> None:

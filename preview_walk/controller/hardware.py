@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from preview_walk.geometry.support import Sole
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.disturbance import ROUGH_SMOOTHING_TIME, SMOOTHING_TIME
-from preview_walk.tracking.contacts import COP_MARGIN, Edge
+from preview_walk.tracking.contacts import COP_MARGIN
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array
 
@@ -30,9 +29,6 @@ SURE, PLAY = 3.0, 0.5
 """So many standard deviations of the estimate's noise should move the wanted ZMP by no more than
 this share of the sole's half width."""
 
-SPREAD = 2.0
-"""So many standard deviations of a motor's constant are counted on."""
-
 
 @dataclass(frozen=True, eq=False)
 class Hardware:
@@ -41,30 +37,24 @@ class Hardware:
     Attributes:
         delay: from a state to the torques that answer it, s.
         friction: (n,) dry friction of the joints, N·m.
-        error: standard deviation of the motors' constants, share of the torque.
     """
 
     delay: float
     friction: Array
-    error: float = 0.0
 
-    def edge(self, robot: Robot) -> Edge:
-        """Return the strips at a sole's edges, along x and y (m), where nothing is to be pressed.
+    def edge(self, robot: Robot) -> float:
+        """Return the width of the strip along a sole's edges where nothing is to be pressed, m.
 
-        What an ankle's friction holds back, and what its motor gives too much, moves the centre of
-        pressure by so much. Pressed at its very edge a sole turns over it, and the ankle's friction
-        keeps it there.
+        What an ankle's friction holds back moves the centre of pressure by so much. Pressed at its
+        very edge a sole turns over it, and the ankle's friction keeps it there.
         """
         ankles = [robot.legs[foot].joints[-2:] for foot in FEET]
         rows = [int(robot.pin.joints[joint].idx_v) - 6 for pair in ankles for joint in pair]
-        stiction = float(self.friction[rows].max()) / (robot.mass * robot.gravity)
-        off = SPREAD * self.error
-        return stiction + off * robot.sole.half_length, stiction + off * robot.sole.half_width
+        return float(self.friction[rows].max()) / (robot.mass * robot.gravity)
 
-    def pressed(self, robot: Robot) -> Sole:
-        """Return half sizes (m) of what of a sole may be pressed."""
-        keep, (x, y) = 1.0 - COP_MARGIN, self.edge(robot)
-        return Sole(keep * robot.sole.half_length - x, keep * robot.sole.half_width - y)
+    def pressed_width(self, robot: Robot) -> float:
+        """Return half of the width of a sole that may be pressed, m."""
+        return (1.0 - COP_MARGIN) * robot.sole.half_width - self.edge(robot)
 
 
 def dcm_rate(wanted: float, omega: float, delay: float, spread: float, half_width: float) -> float:

@@ -29,7 +29,6 @@ from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import CentroidalState, ComFeedback
 from preview_walk.stabilizer.flight import waiting
 from preview_walk.terrain.ground import Ground, Plane
-from preview_walk.tracking.contacts import NO_EDGE
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_wrenches
 from preview_walk.tracking.whole_body import WholeBodyController
@@ -97,7 +96,7 @@ class Walker:
         instance_of(plan, FootstepPlan, "plan")
         self.gains = TrackingGains() if gains is None else gains
         q = real_array(q, "q", "the configuration of the robot")
-        edge = NO_EDGE if hardware is None else hardware.edge(robot)
+        edge = 0.0 if hardware is None else hardware.edge(robot)
         self.body = WholeBodyController(robot, self.gains, friction, solver, edge=edge)
         if q.shape != (robot.pin.nq,):
             raise InvalidInput(f"q must be of shape ({robot.pin.nq},), got {shown(q)}.", "q")

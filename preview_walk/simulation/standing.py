@@ -108,7 +108,7 @@ def hardware_of(plant: Plant) -> Hardware | None:
     realism = plant.realism
     friction = realism.motors.dry_friction * plant.robot.effort
     late = realism.delay + realism.speed_lag
-    return Hardware(late, friction, realism.motors.error)
+    return Hardware(late, friction)
 
 
 def standing_plan(robot: Robot | Plant, start: Sequence[float]) -> FootstepPlan:

@@ -21,9 +21,9 @@ ROUGH_SMOOTHING_TIME = 0.1
 """The same on ground that is not known: soles rock on edges at some 10 Hz, and an estimate that
 follows them moves the wanted centre of pressure to and fro, which rocks them on."""
 
-STEADY_TIME = 0.5
-"""Time constant (s) over which a disturbance comes to be taken for one that stays: a step, so
-that what every step does cancels out, and a push of tenths of a second hardly counts."""
+STEADY_TIME = 0.3
+"""Time constant (s) over which a disturbance comes to be taken for one that stays: about half
+a step, so that most of what every step does cancels out, and wind is leant against in time."""
 
 MOST_STEADY = 0.15
 """No force that stays is taken for larger than this share of the weight."""

@@ -53,21 +53,15 @@ def wrench_cone(half_length: float, half_width: float, friction: float) -> Array
     return np.array(rows, dtype=float)
 
 
-Edge = tuple[float, float]
-"""Widths (m) of the strips at a sole's ends and along its sides where nothing is to be pressed."""
-
-NO_EDGE: Edge = (0.0, 0.0)
-
-
-def sole_cone(sole: RobotSole, friction: float, edge: Edge = NO_EDGE) -> Array:
-    """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN` and by an edge."""
+def sole_cone(sole: RobotSole, friction: float, edge: float = 0.0) -> Array:
+    """Return the wrench cone (16, 6) of a robot's sole, shrunk by `COP_MARGIN` and an edge (m)."""
     keep = 1.0 - COP_MARGIN
-    x, y = keep * sole.half_length - edge[0], keep * sole.half_width - edge[1]
+    x, y = keep * sole.half_length - edge, keep * sole.half_width - edge
     return wrench_cone(x, y, friction)
 
 
 def contact_rows(
-    soles: Sequence[RobotSole], friction: float, edge: Edge = NO_EDGE
+    soles: Sequence[RobotSole], friction: float, edge: float = 0.0
 ) -> tuple[Array, Array, Array]:
     """Return C (17 k, 6 k), low and high (17 k,): low <= C @ wrenches <= high for k soles.
 

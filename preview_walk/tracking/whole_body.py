@@ -14,7 +14,7 @@ from preview_walk.arguments import instance_of, positive_number, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.building.leg import leg_joints
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.contacts import NO_EDGE, Edge, load_shares
+from preview_walk.tracking.contacts import load_shares
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_state
@@ -73,7 +73,7 @@ class WholeBodyController:
         friction: float,
         solver: str = DEFAULT,
         *,
-        edge: Edge = NO_EDGE,
+        edge: float = 0.0,
     ) -> None:
         """Make the tasks of a robot.
 
@@ -82,7 +82,7 @@ class WholeBodyController:
             gains: weights and gains of the tasks.
             friction: Coulomb friction between soles and ground.
             solver: "osqp", kept warm from tick to tick, "daqp", or a backend of qpsolvers.
-            edge: (along x, along y) from which the soles' centres of pressure keep away besides, m.
+            edge: width along the soles' edges where nothing is to be pressed, m.
 
         Raises:
             InvalidInput: there is no such solver.

@@ -27,7 +27,7 @@ import qpsolvers
 from scipy.linalg.blas import dsymv
 
 from preview_walk.robots.robot import Robot
-from preview_walk.tracking.contacts import NO_EDGE, Edge, contact_rows
+from preview_walk.tracking.contacts import contact_rows
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.tracking.tasks import PostureTask, Task
 from preview_walk.types import Array, Foot
@@ -86,7 +86,7 @@ class TickProblem:
         *,
         wrench_weight: float,
         friction: float,
-        edge: Edge = NO_EDGE,
+        edge: float = 0.0,
     ) -> None:
         self.robot = robot
         self.contacts = tuple(contacts)
