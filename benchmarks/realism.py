@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import zoom
 
 import preview_walk as pw
 
@@ -80,10 +81,13 @@ def realism_of(case: Case, robot: pw.Robot) -> pw.Realism | None:
 
 
 def uneven(rng: np.random.Generator) -> pw.HeightField:
-    """Return ground of random heights within 1 cm, 0.4 m apart, level where the robot starts."""
+    """Return ground of random heights within 1 cm, 0.4 m apart, level where the robot starts.
+
+    Between them it is interpolated every 4 cm, as fine as the heights of `pw.rough`.
+    """
     heights = rng.uniform(-0.01, 0.01, (61, 61))
     heights[28:33, 28:33] = 0.0
-    return pw.HeightField(heights, 0.4, -12.0, -12.0)
+    return pw.HeightField(zoom(heights, 601 / 61, order=1), 0.04, -12.0, -12.0)
 
 
 def walk(case: Case) -> dict[str, Any]:

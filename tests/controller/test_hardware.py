@@ -58,7 +58,7 @@ def stiff(robot: Robot, share: float) -> Array:
 
 
 def test_the_edge_is_what_friction_moves_the_centre_of_pressure_by(g1: Robot) -> None:
-    """G1's ankles: 35 N·m. Held back by friction with all the load on it, a sole is not at its edge."""
+    """G1's ankles: 35 N·m. Held back by friction under all the load, a sole is not at its edge."""
     hardware = Hardware(0.0, stiff(g1, 0.02))
     moved = 0.02 * 35.0 / (g1.mass * g1.gravity)
     assert hardware.edge(g1) == pytest.approx(moved)
