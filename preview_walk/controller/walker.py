@@ -11,7 +11,8 @@ from preview_walk.controller.airborne import Airborne
 from preview_walk.controller.balance import Balance
 from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
 from preview_walk.controller.feet import DEEP_SEARCH, NOISY_SEARCH, SEARCH, Feet
-from preview_walk.controller.hardware import FrictionCompensation, Hardware, smoothing_time
+from preview_walk.controller.friction import FrictionCompensation
+from preview_walk.controller.hardware import Hardware, smoothing_time
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion

@@ -28,7 +28,7 @@ STANDS = 0.2
 """A sole with this share of the weight on it lies on the ground, whose height is known."""
 
 CORRECTED = 4
-"""The legs are taken in at every so manieth tick; the IMU leads the state on at every one."""
+"""The legs are taken in once in so many ticks; the IMU leads the state on at every one."""
 
 LEAST_TIME = 1e-3
 """Time (s) for which the first readings of a run stand."""
