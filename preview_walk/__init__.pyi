@@ -170,6 +170,17 @@ from .lab.swing import SwingLegTrajectory as SwingLegTrajectory
 from .lab.walking_controller import WalkingController as WalkingController
 from .lab.zmp import ZMPTrajectoryGenerator as ZMPTrajectoryGenerator
 
+# Campaigns.
+from .studies.study import Study as Study
+from .studies.margin import Margin as Margin
+from .studies.walk_case import walk_case as walk_case
+from .studies.reading import read_study as read_study
+from .studies.results import Results as Results
+from .studies.results import read_results as read_results
+from .studies.campaign import VersionsWarning as VersionsWarning
+from .studies.pictures import heat_map as heat_map
+from .studies.pictures import polar_plot as polar_plot
+
 # Types and errors.
 from .types import Array as Array
 from .types import FEET as FEET

@@ -87,6 +87,36 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
             part.unlink()
 
 
+@contextmanager
+def claimed(folder: Path) -> Iterator[None]:
+    """Keep a folder for this run until the end of the block.
+
+    The system lets go of it when the process ends, however that is; where it has no such locks
+    (Windows, some network drives) nothing is kept.
+
+    Raises:
+        OutputError: another run has it.
+    """
+    try:
+        import fcntl
+
+        lock = os.open(folder, os.O_RDONLY)
+    except (ImportError, OSError):
+        yield
+        return
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        os.close(lock)
+        raise OutputError(f"another run is about to write to the folder {folder}.") from error
+    except OSError:
+        pass
+    try:
+        yield
+    finally:
+        os.close(lock)
+
+
 def remove_stale_parts(folder: str | os.PathLike[str]) -> None:
     """Remove from a folder the temporary files of processes that were killed.
 

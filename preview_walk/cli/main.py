@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 
+from preview_walk.cli import study
 from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.options import Options, parse
 from preview_walk.cli.streams import complain, safe_streams, say
@@ -36,8 +37,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _guarded(argv: Sequence[str] | None, interruption: Interruption) -> int:
     """Do what the options ask for; every error is a sentence and a code."""
     try:
-        options = parse(argv)
-        command = shlex.join(["preview-walk", *(sys.argv[1:] if argv is None else argv)])
+        arguments = list(sys.argv[1:] if argv is None else argv)
+        if arguments[:1] == [study.WORD]:
+            return study.run_study_file(arguments[1:], interruption)
+        options = parse(arguments)
+        command = shlex.join(["preview-walk", *arguments])
         return _do(options, command, interruption)
     except OutputError as error:
         reason = str(error).rstrip(".")

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -43,36 +42,6 @@ def make_folder(folder: Path, names: Iterable[str]) -> None:
         if (folder / name).is_dir():
             raise OutputError(f"cannot write {folder / name}: Is a directory.")
     remove_stale_parts(folder)
-
-
-@contextmanager
-def claimed(folder: Path) -> Iterator[None]:
-    """Keep a folder for this run until the end of the block.
-
-    The system lets go of it when the process ends, however that is; where it has no such locks
-    (Windows, some network drives) nothing is kept.
-
-    Raises:
-        OutputError: another run has it.
-    """
-    try:
-        import fcntl
-
-        lock = os.open(folder, os.O_RDONLY)
-    except (ImportError, OSError):
-        yield
-        return
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as error:
-        os.close(lock)
-        raise OutputError(f"another run is about to write to the folder {folder}.") from error
-    except OSError:
-        pass
-    try:
-        yield
-    finally:
-        os.close(lock)
 
 
 def writers_of(

@@ -200,7 +200,7 @@ class BaseFilter:
         self,
         legs: Array,
         heights: Sequence[float | None],
-        turning: tuple[Array, Array] | None = None,
+        turns: Sequence[Array] = (),
     ) -> None:
         """Take in where the legs say that the soles are, and how the base turns over them.
 
@@ -211,8 +211,9 @@ class BaseFilter:
         Args:
             legs: (2, 3) places of the soles from the base's origin, base axes, m.
             heights: of the ground under each sole where it is known and stood on, m, or None.
-            turning: (3,) turning rate of the base as the gyro measures it, and as the joints of a
-                standing leg have it, base axes, rad/s; None where no leg stands alone.
+            turns: (3,) each: by how much the gyro measured more than the base's turning rate as
+                the joints of a standing leg have it, base axes, rad/s, at each tick since the last
+                correction at which one leg stood alone.
         """
         p, vectors, look = self.covariance, self.vectors, self._look
         innovation, spread = np.zeros(ROWS), self._unseen.copy()
@@ -225,9 +226,9 @@ class BaseFilter:
             height = heights[k]
             if height is not None:
                 innovation[6 + k], spread[6 + k] = height - z, self.noise.ground**2
-        if turning is not None:
-            innovation[8:] = turning[0] - self.gyro_bias - turning[1]
-            spread[8:] = self.noise.turn**2
+        if turns:
+            innovation[8:] = np.mean(turns, axis=0) - self.gyro_bias
+            spread[8:] = self.noise.turn**2 / len(turns)
         seen = p @ look.T
         s = look @ seen
         s.reshape(-1)[:: ROWS + 1] += spread

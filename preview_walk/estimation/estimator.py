@@ -101,6 +101,7 @@ class Estimator:
         self._gyro = Channel("axis of the gyro", "rad/s", 50.0)
         self._accelerometer = Channel("axis of the accelerometer", "m/s^2", 1000.0)
         self._since, self._steps = 0.0, 0
+        self._turns: list[Array] = []
         self._last_gyro, self._last_force = np.zeros(3), np.array((0.0, 0.0, robot.gravity))
 
     @property
@@ -132,20 +133,20 @@ class Estimator:
         read = np.array([m.wrench[foot] for foot in FEET])
         carried = self.robot.mass * float(base.rotation[2] @ (force - base.accelerometer_bias))
         self.soles.update(read, carried, legs @ base.rotation[2], max(dt, LEAST_TIME))
+        standing = 0 if self.soles.loads[0] > self.soles.loads[1] else 1
+        if self.soles.loads[standing] > STANDS_ALONE:
+            self._turns.append(gyro - self._turn(standing))
         if self._steps in (0, CORRECTED):
-            self._correct(gyro, legs)
+            self._correct(legs)
         wrench = self._wrenches()
         return self._ahead(gyro - base.gyro_bias, acceleration, wrench)
 
-    def _correct(self, gyro: Array, legs: Array) -> None:
+    def _correct(self, legs: Array) -> None:
         """Take in what the legs tell, and how much less is known since they last did."""
-        loads, base = self.soles.loads, self.base
         if self._steps:
-            base.spread(self._since, self._steps, loads)
-        self._since, self._steps = 0.0, 0
-        standing = 0 if loads[0] > loads[1] else 1
-        alone = loads[standing] > STANDS_ALONE
-        base.correct(legs, self._heights(), (gyro, self._turn(standing)) if alone else None)
+            self.base.spread(self._since, self._steps, self.soles.loads)
+        self.base.correct(legs, self._heights(), self._turns)
+        self._since, self._steps, self._turns = 0.0, 0, []
 
     def _legs(self) -> Array:
         """Return the places (2, 3) of the soles from the base, base axes, m."""

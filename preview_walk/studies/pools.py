@@ -1,0 +1,152 @@
+"""Where cases run: loky, joblib's pool of processes on this machine, or the workers of Dask."""
+
+from __future__ import annotations
+
+import os
+import signal
+from concurrent.futures import Executor, Future
+from importlib.util import find_spec
+from typing import Any, Protocol
+
+from preview_walk.arguments import shown
+from preview_walk.errors import InvalidInput
+from preview_walk.studies.case import Case
+from preview_walk.studies.work import Row, Work, run_case
+
+INSTALL = "pip install 'preview-walk[studies]'"
+
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+_CONNECT = 10.0
+"""Seconds within which a scheduler must answer."""
+
+
+class Pool(Protocol):
+    """What the engine needs of a pool of workers."""
+
+    @property
+    def at_once(self) -> int:
+        """How many cases are handed over at a time: enough to keep every worker busy."""
+
+    def submit(self, work: Work, case: Case) -> Future[Row]:
+        """Hand a case over."""
+
+    def broken_by(self, error: BaseException) -> bool:
+        """Return whether an error says that the pool is lost with all that it had."""
+
+    def renew(self) -> None:
+        """Make the pool anew."""
+
+    def close(self) -> None:
+        """Let the workers go; what they are at is given up."""
+
+
+class LocalPool:
+    """Processes on this machine, each with one thread for linear algebra."""
+
+    def __init__(self, jobs: int) -> None:
+        """Start that many processes when there is work for them."""
+        require("joblib")
+        self.jobs = jobs
+        self._executor = self._new()
+
+    def _new(self) -> Any:
+        from joblib.externals.loky import ProcessPoolExecutor
+
+        return ProcessPoolExecutor(
+            self.jobs, initializer=_leave_signals_to_the_parent, env=_ONE_THREAD
+        )
+
+    @property
+    def at_once(self) -> int:
+        """Two for each worker: one that it does, one that waits."""
+        return 2 * self.jobs
+
+    def submit(self, work: Work, case: Case) -> Future[Row]:
+        """Hand a case over."""
+        future: Future[Row] = self._executor.submit(run_case, work, case)
+        return future
+
+    def broken_by(self, error: BaseException) -> bool:
+        """Return whether a worker ended, which ends loky's pool."""
+        from concurrent.futures.process import BrokenProcessPool
+
+        return isinstance(error, BrokenProcessPool)
+
+    def renew(self) -> None:
+        """Start other processes."""
+        self.close()
+        self._executor = self._new()
+
+    def close(self) -> None:
+        """End the processes."""
+        self._executor.shutdown(wait=True, kill_workers=True)
+
+
+class ClusterPool:
+    """The workers of a Dask cluster, which should have one thread each.
+
+    The scheduler gives the cases of a worker that ended to others, and after three of them that
+    ended with the same case an error, which is that case's.
+    """
+
+    def __init__(self, scheduler: str) -> None:
+        """Connect to a scheduler, as "tcp://host:8786".
+
+        Raises:
+            InvalidInput: none answers there, or Dask is not installed.
+        """
+        require("distributed")
+        import distributed
+
+        client: Any = distributed.Client
+        try:
+            self._client = client(scheduler, timeout=_CONNECT, set_as_default=False)
+        except (OSError, TimeoutError, ValueError) as error:
+            raise InvalidInput(
+                f"scheduler must be the address of a Dask scheduler that answers, as "
+                f"tcp://host:8786, got {shown(scheduler)}.",
+                argument="scheduler",
+            ) from error
+        self._executor: Executor = self._client.get_executor(pure=False)
+
+    @property
+    def at_once(self) -> int:
+        """Two for each thread of the workers that there are now, which may become more."""
+        threads: dict[str, int] = self._client.nthreads()
+        return max(2, 2 * sum(threads.values()))
+
+    def submit(self, work: Work, case: Case) -> Future[Row]:
+        """Hand a case over."""
+        return self._executor.submit(run_case, work, case)
+
+    def broken_by(self, error: BaseException) -> bool:
+        """Return False: the scheduler outlives its workers."""
+        return False
+
+    def renew(self) -> None:
+        """Do nothing."""
+
+    def close(self) -> None:
+        """Let go of the cluster, and of the cases that it has not done."""
+        self._client.close()
+
+
+def require(package: str) -> None:
+    """Check that a package of the extra is there.
+
+    Raises:
+        InvalidInput: it is not; says how to install it.
+    """
+    if find_spec(package) is None:
+        raise InvalidInput(f"a study needs {package}, which is not installed: {INSTALL} brings it.")
+
+
+def workers_of(jobs: int | None) -> int:
+    """Return the number of processes: that asked for, or one a core."""
+    return jobs if jobs is not None else len(os.sched_getaffinity(0))
+
+
+def _leave_signals_to_the_parent() -> None:
+    """Ignore Ctrl-C in a worker: the parent gets it too, and ends the workers."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

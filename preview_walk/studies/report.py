@@ -1,0 +1,117 @@
+"""A study as one HTML page that needs nothing else."""
+
+from __future__ import annotations
+
+import base64
+from html import escape
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
+from preview_walk.files import whole_file
+from preview_walk.studies.journal import read_facts
+from preview_walk.studies.pictures import SHARE, heat_map
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from preview_walk.studies.results import Results
+
+MOST_ROWS = 500
+"""Rows of failed cases that a page shows."""
+
+_STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto;
+padding: 0 1rem; color: #1a1a1a; background: #fff }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px }
+td, th { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right }
+div { overflow-x: auto }
+img { max-width: 100% }
+dt { font-weight: 600 }"""
+
+
+def write_report(results: Results, path: Path) -> Path:
+    """Write the page; return its path.
+
+    It holds what the study is, survival or margins by its factors, a map over each pair of them (or
+    over the first of the pair alone), and the cases that did not succeed.
+
+    Args:
+        results: of a study.
+        path: of the page.
+
+    Raises:
+        OutputError: the file cannot be written.
+    """
+    facts = read_facts(results.folder) or {}
+    title = escape(str(facts.get("name", "study")))
+    body = [f"<h1>{title}</h1>", _facts(facts, results), *_tables(results), *_maps(results)]
+    body.append(_failures(results.table))
+    page = (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
+        f"<style>{_STYLE}</style>{''.join(body)}</html>\n"
+    )
+    with whole_file(path) as part:
+        part.write_text(page, encoding="utf-8")
+    return path
+
+
+def _facts(facts: dict[str, object], results: Results) -> str:
+    table = results.table
+    shown = {
+        "function": facts.get("function"),
+        "factors": facts.get("factors"),
+        "repeats": facts.get("repeats"),
+        "seed": facts.get("seed"),
+        "margin": facts.get("margin"),
+        "cases done": f"{len(results)}, {results.missing} left",
+        "processor time": f"{float(table['seconds'].sum()) / 3600.0:.2f} h",
+        "versions": "; ".join(sorted(set(table["versions"]))),
+    }
+    items = [f"<dt>{name}</dt><dd>{escape(str(v))}</dd>" for name, v in shown.items() if v]
+    return f"<dl>{''.join(items)}</dl>"
+
+
+def _tables(results: Results) -> list[str]:
+    found = "margin" in results.table
+    groups: list[tuple[str, ...]] = [(), *((name,) for name in results.varied)]
+    if len(results.varied) > 1:
+        groups.append(results.varied)
+    parts = []
+    for by in groups:
+        table = results.margins(by) if found else results.survival(by)
+        parts.append(f"<h2>{escape('By ' + ', '.join(by) if by else 'All cases')}</h2>")
+        parts.append(f"<div>{_html(table)}</div>")
+    return parts
+
+
+def _maps(results: Results) -> list[str]:
+    names = results.varied
+    value = "margin" if "margin" in results.table else SHARE
+    pairs = [(x, y) for k, x in enumerate(names) for y in names[k + 1 :]]
+    return [
+        f"<h2>{escape(f'{x} and {y}')}</h2>{_picture(heat_map(results, x, y, value))}"
+        for x, y in pairs
+    ]
+
+
+def _picture(figure: Figure) -> str:
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=110)
+    data = base64.b64encode(stream.getvalue()).decode()
+    return f'<img alt="" src="data:image/png;base64,{data}">'
+
+
+def _failures(table: pd.DataFrame) -> str:
+    failed = table[~table["success"].astype(bool)].drop(columns=["versions", "started", "host"])
+    if not len(failed):
+        return ""
+    more = f" (the first {MOST_ROWS})" if len(failed) > MOST_ROWS else ""
+    head = f"<h2>Cases that did not succeed: {len(failed)}{more}</h2>"
+    return f"{head}<div>{_html(failed.head(MOST_ROWS))}</div>"
+
+
+def _html(table: pd.DataFrame) -> str:
+    html: str = table.to_html(float_format=lambda x: f"{x:.4g}", na_rep="", border=0)
+    return html
