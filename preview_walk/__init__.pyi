@@ -178,6 +178,7 @@ from .studies.reading import read_study as read_study
 from .studies.results import Results as Results
 from .studies.results import read_results as read_results
 from .studies.campaign import VersionsWarning as VersionsWarning
+from .studies.report import write_report as write_report
 from .studies.pictures import heat_map as heat_map
 from .studies.pictures import polar_plot as polar_plot
 

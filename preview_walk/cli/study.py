@@ -78,6 +78,7 @@ def run_study_file(arguments: Sequence[str], interruption: Interruption) -> int:
     """
     given = make_parser().parse_args(list(arguments))
     from preview_walk.studies.reading import read_study
+    from preview_walk.studies.report import write_report
 
     study = read_study(given.file)
     folder = Path(given.out) if given.out else Path(given.file).with_suffix("")
@@ -97,7 +98,7 @@ def run_study_file(arguments: Sequence[str], interruption: Interruption) -> int:
         scheduler=given.scheduler,
     )
     say(str(results))
-    page = results.report()
+    page = write_report(results)
     say(f"Written to {folder}: results.parquet, {page.name}")
     if results.interrupted:
         say(f"Stopped by {interruption.name}; the same command with --resume goes on.")

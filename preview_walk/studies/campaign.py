@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from preview_walk.arguments import count_of
 from preview_walk.errors import InvalidInput
@@ -20,9 +20,7 @@ from preview_walk.studies.engine import rows_of
 from preview_walk.studies.journal import RECORDS, Journal, read_facts, read_rows
 from preview_walk.studies.pools import ClusterPool, LocalPool, Pool, require, workers_of
 from preview_walk.studies.results import Results
-
-if TYPE_CHECKING:
-    from preview_walk.studies.study import Study
+from preview_walk.studies.work import Campaign
 
 _MUST_AGREE = ("function", "source", "metrics", "seed", "margin")
 """Facts of a study on which its rows depend; factors and repeats may grow and shrink."""
@@ -33,7 +31,7 @@ class VersionsWarning(UserWarning):
 
 
 def run_study(
-    study: Study,
+    study: Campaign,
     folder: str | os.PathLike[str],
     *,
     jobs: int | None,
@@ -67,7 +65,7 @@ def run_study(
     return results
 
 
-def _run(study: Study, journal: Journal, pool: Pool, cases: Any, bar: Any) -> bool:
+def _run(study: Campaign, journal: Journal, pool: Pool, cases: Any, bar: Any) -> bool:
     """Do cases and write their rows; return whether Ctrl-C stopped it."""
     succeeded = finished = 0
     work = study.work((journal.folder / RECORDS).resolve())
@@ -83,7 +81,7 @@ def _run(study: Study, journal: Journal, pool: Pool, cases: Any, bar: Any) -> bo
     return False
 
 
-def _done(study: Study, folder: Path, versions: str, resume: bool) -> set[str]:
+def _done(study: Campaign, folder: Path, versions: str, resume: bool) -> set[str]:
     """Return the keys of the rows in a folder, which must be of this study."""
     facts, rows = read_facts(folder), read_rows(folder)
     if facts is None or not rows:
@@ -113,7 +111,7 @@ def _done(study: Study, folder: Path, versions: str, resume: bool) -> set[str]:
     return {row["key"] for row in rows}
 
 
-def _bar(study: Study, count: int, limit: int | None, progress: bool) -> Any:
+def _bar(study: Campaign, count: int, limit: int | None, progress: bool) -> Any:
     """Return a bar with the rate and the time left."""
     from tqdm.auto import tqdm
 
@@ -127,7 +125,7 @@ def _bar(study: Study, count: int, limit: int | None, progress: bool) -> Any:
     )
 
 
-def _require_picklable(study: Study) -> None:
+def _require_picklable(study: Campaign) -> None:
     """Check that the workers can be told what to do."""
     require("cloudpickle")
     import cloudpickle
@@ -144,7 +142,7 @@ def _versions() -> str:
     return ", ".join(f"{name} {version}" for name, version in package_versions().items())
 
 
-def cases_left(study: Study, folder: Path) -> Iterator[Case]:
+def cases_left(study: Campaign, folder: Path) -> Iterator[Case]:
     """Yield the cases that a run of the study into a folder would do."""
     done = {row["key"] for row in read_rows(folder)}
     return (case for case in study.cases() if case.key not in done)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import os
 from html import escape
 from io import BytesIO
 from pathlib import Path
@@ -10,14 +11,13 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from preview_walk.files import whole_file
+from preview_walk.files import as_path, whole_file
 from preview_walk.studies.journal import read_facts
 from preview_walk.studies.pictures import SHARE, heat_map
+from preview_walk.studies.results import Results
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from preview_walk.studies.results import Results
 
 MOST_ROWS = 500
 """Rows of failed cases that a page shows."""
@@ -31,19 +31,20 @@ img { max-width: 100% }
 dt { font-weight: 600 }"""
 
 
-def write_report(results: Results, path: Path) -> Path:
-    """Write the page; return its path.
+def write_report(results: Results, path: str | os.PathLike[str] | None = None) -> Path:
+    """Write a page about a study, one HTML file that needs nothing else; return its path.
 
     It holds what the study is, survival or margins by its factors, a map over each pair of them (or
     over the first of the pair alone), and the cases that did not succeed.
 
     Args:
         results: of a study.
-        path: of the page.
+        path: of the page; None: report.html in the study's folder.
 
     Raises:
         OutputError: the file cannot be written.
     """
+    target = results.folder / "report.html" if path is None else as_path(path)
     facts = read_facts(results.folder) or {}
     title = escape(str(facts.get("name", "study")))
     body = [f"<h1>{title}</h1>", _facts(facts, results), *_tables(results), *_maps(results)]
@@ -52,9 +53,9 @@ def write_report(results: Results, path: Path) -> Path:
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
         f"<style>{_STYLE}</style>{''.join(body)}</html>\n"
     )
-    with whole_file(path) as part:
+    with whole_file(target) as part:
         part.write_text(page, encoding="utf-8")
-    return path
+    return target
 
 
 def _facts(facts: dict[str, object], results: Results) -> str:

@@ -15,11 +15,10 @@ from preview_walk.studies.figures import storable
 from preview_walk.studies.journal import TABLE, read_facts, read_rows
 from preview_walk.studies.pools import require
 from preview_walk.studies.survival import margins_by, survival_by
+from preview_walk.studies.work import Campaign
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from preview_walk.studies.study import Study
 
 _ABOUT = ("outcome", "success", "reason", "seconds", "started", "host", "versions", "key")
 """What a row says about its case, beside factors and figures."""
@@ -47,7 +46,7 @@ class Results:
     interrupted: bool = False
 
     @staticmethod
-    def of(study: Study, folder: Path, *, interrupted: bool = False) -> Results:
+    def of(study: Campaign, folder: Path, *, interrupted: bool = False) -> Results:
         """Return the rows in a folder that are of a study, in its order."""
         rows = {row["key"]: row for row in read_rows(folder)}
         mine = [rows[case.key] for case in study.cases() if case.key in rows]
@@ -124,19 +123,6 @@ class Results:
         with whole_file(target) as part:
             self.table.to_parquet(part, index=False)
         return target
-
-    def report(self, path: str | os.PathLike[str] | None = None) -> Path:
-        """Write a page about the study, one HTML file that needs nothing else; return its path.
-
-        Args:
-            path: of the file; None: report.html in the folder.
-
-        Raises:
-            OutputError: the file cannot be written.
-        """
-        from preview_walk.studies.report import write_report
-
-        return write_report(self, self.folder / "report.html" if path is None else as_path(path))
 
     def _columns(self, by: str | Iterable[str]) -> list[str]:
         names = [by] if isinstance(by, str) else list(by)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import datetime, timezone
@@ -11,7 +11,7 @@ from inspect import signature
 from pathlib import Path
 from platform import node
 from time import perf_counter
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 from preview_walk.errors import InvalidInput
 from preview_walk.files import OutputError
@@ -48,6 +48,30 @@ class Work:
     time_limit: float | None = None
     keep: Keep = "none"
     folder: Path = Path()
+
+
+class Campaign(Protocol):
+    """What doing a study and reading its results need to know of it; `Study` is one."""
+
+    @property
+    def name(self) -> str:
+        """Of the study."""
+
+    @property
+    def draws(self) -> tuple[str, ...]:
+        """Names of the random factors."""
+
+    def cases(self) -> Iterator[Case]:
+        """Yield all cases."""
+
+    def work(self, folder: Path) -> Work:
+        """Return what is done with each case; records go into `folder`."""
+
+    def facts(self) -> dict[str, Any]:
+        """Return what the study is, as plain values."""
+
+    def __len__(self) -> int:
+        """Return the number of cases."""
 
 
 @dataclass(frozen=True)
