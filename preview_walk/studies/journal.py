@@ -11,6 +11,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from errno import ENOSPC
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +57,8 @@ class Journal:
         path = self.folder / ROWS
         with claimed(self.folder):
             try:
-                self._file = path.open("ab+")
+                # Without a buffer: what a full disk did not take is not tried again at the end.
+                self._file = path.open("ab+", buffering=0)
                 _cut_torn_line(self._file)
             except OSError as error:
                 raise OutputError(f"cannot write {short(path)}: {error.strerror}.") from error
@@ -88,8 +90,9 @@ class Journal:
             "versions": self.versions,
         }
         try:
-            self._file.write(json.dumps(line).encode() + b"\n")
-            self._file.flush()
+            data = json.dumps(line).encode() + b"\n"
+            if self._file.write(data) < len(data):
+                raise OSError(ENOSPC, os.strerror(ENOSPC))
             os.fsync(self._file.fileno())
         except OSError as error:
             path = self.folder / ROWS

@@ -46,7 +46,7 @@ def heat_map(results: Results, x: str, y: str, value: str = SHARE) -> Figure:
         if np.isfinite(number):
             dark = number < 0.4 * (low or 0.0) + 0.6 * (high or 0.0)
             axes.text(
-                column, row, f"{number:.3g}", ha="center", va="center", color="w" if dark else "k"
+                column, row, f"{number:.2g}", ha="center", va="center", color="w" if dark else "k"
             )
     figure.colorbar(image, label=_label(value))
     return figure
