@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import argparse
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from math import radians
+from typing import Any
 
+from campaign import make_parser, run
 from push_bound_table import GAITS
-from push_recovery import ANGLES, SHARES, Cell, cells, survives
-from tqdm import tqdm
+from push_recovery import ANGLES, SHARES, Cell, cells, pushed
 
+import preview_walk as pw
 from preview_walk import largest_impulse
 
 OF_BAR = (0.6, 0.8, 1.0)
@@ -35,8 +36,8 @@ OUTWARD = 0.75
 
 def bar(cell: Cell) -> float:
     """Return the impulse (N·s) that a cell should survive."""
-    robot, _, share, angle = cell
-    gait, towards = GAITS[robot.upper()], radians(angle)
+    share, angle = cell["share"], cell["angle"]
+    gait, towards = GAITS[cell["robot"].upper()], radians(angle)
     kept = largest_impulse(gait, share, towards, "cop")
     free = largest_impulse(gait, share, towards, "steps")
     if angle == 90 or (share is None and angle == 270):
@@ -44,43 +45,48 @@ def bar(cell: Cell) -> float:
     return min(kept, OUTWARD * free) if share is None and angle % 180 else kept
 
 
-def tried(push: tuple[Cell, float, str | None]) -> bool:
-    """Return whether a cell survives an impulse (N·s) on a body; for the pool."""
-    return survives(*push)
+def tried(of_bar: float, **cell: Any) -> pw.Record:
+    """Return the record of a push of a share of the bar."""
+    return pushed(**cell)
+
+
+def study(given: argparse.Namespace) -> pw.Study:
+    """Return the pushes of every cell."""
+    rows = [
+        {**cell, "body": given.body or "", "of_bar": of, "impulse": of * bar(cell)}
+        for cell in cells(given.robot, list(SHARES), list(ANGLES))
+        for of in OF_BAR
+    ]
+    return pw.Study(rows, tried, name="push bar")
+
+
+def report(results: pw.Results, given: argparse.Namespace) -> int:
+    """Print the cells that fell at one of the shares at least; return 1 where there are any."""
+    fell = 0
+    groups = results.table.groupby(["share", "stance", "angle"], dropna=False, sort=False)
+    for (share, stance, angle), rows in groups:
+        if rows["success"].all():
+            continue
+        fell += 1
+        phase = "standing" if share != share else f"{100 * share:.0f} %, {stance} stance"
+        size = float((rows["impulse"] / rows["of_bar"]).iloc[0])
+        words = [
+            f"{row.of_bar:g}: {'stood' if row.success else 'fell'}" for row in rows.itertuples()
+        ]
+        print(f"{phase}, {angle} degrees, of the bar of {size:.1f} N·s  {', '.join(words)}")
+    stood = int(results.table["success"].sum())
+    print(f"{given.robot}: {len(groups) - fell} of {len(groups)} cells past the bar, ", end="")
+    print(f"{stood} of {len(results)} pushes survived")
+    return 1 if fell else 0
 
 
 def main() -> int:
-    """Push every cell; return how many fell at one of the shares at least."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    """Push every cell; return 1 where one fell."""
+    parser = make_parser(__doc__, "push_bar")
     parser.add_argument("--robot", default="talos", choices=[name.lower() for name in GAITS])
-    parser.add_argument("--jobs", type=int, default=None, help="processes (default: all cores)")
     parser.add_argument("--body", help="body that is pushed (default: the base)")
-    given = parser.parse_args()
-    grid = list(cells(given.robot, list(SHARES), list(ANGLES)))
-    bars = [bar(cell) for cell in grid]
-    pushes = [
-        (cell, of * size, given.body)
-        for cell, size in zip(grid, bars, strict=True)
-        for of in OF_BAR
-    ]
-    with ProcessPoolExecutor(given.jobs) as pool:
-        stood = list(tqdm(pool.map(tried, pushes), total=len(pushes), unit="push"))
-    fell = 0
-    for k, (cell, size) in enumerate(zip(grid, bars, strict=True)):
-        outcome = stood[k * len(OF_BAR) : (k + 1) * len(OF_BAR)]
-        if all(outcome):
-            continue
-        fell += 1
-        _, stance, share, angle = cell
-        phase = "standing" if share is None else f"{100 * share:.0f} %, {stance} stance"
-        words = [
-            f"{f:g}: {'stood' if ok else 'fell'}" for f, ok in zip(OF_BAR, outcome, strict=True)
-        ]
-        print(f"{phase}, {angle} degrees, of the bar of {size:.1f} N·s  {', '.join(words)}")
-    print(f"{given.robot}: {len(grid) - fell} of {len(grid)} cells past the bar, ", end="")
-    print(f"{sum(stood)} of {len(stood)} pushes survived")
-    return fell
+    return run(parser, study, report)
 
 
 if __name__ == "__main__":
-    sys.exit(1 if main() else 0)
+    sys.exit(main())

@@ -173,6 +173,7 @@ from .lab.zmp import ZMPTrajectoryGenerator as ZMPTrajectoryGenerator
 # Campaigns.
 from .studies.study import Study as Study
 from .studies.margin import Margin as Margin
+from .studies.walk_case import loaded_robot as loaded_robot
 from .studies.walk_case import walk_case as walk_case
 from .studies.reading import read_study as read_study
 from .studies.results import Results as Results

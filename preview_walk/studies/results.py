@@ -163,7 +163,8 @@ def _table(rows: Sequence[dict[str, Any]], names: Sequence[str]) -> pd.DataFrame
             for name, value in row["figures"].items()
             if name != "success"
         }
-        head = {**row["values"], "repeat": row["repeat"], "seed": row["seed"]}
+        # A factor of the name `seed` is the seed that the function was given.
+        head = {**row["values"], "repeat": row["repeat"], "seed": row["seed"], **row["values"]}
         flat.append({**head, **figures, **{name: row.get(name) for name in _ABOUT}})
     table = pd.DataFrame(flat, columns=None if flat else [*names, "repeat", "seed", *_ABOUT])
     last = [name for name in table.columns if name in _ABOUT]

@@ -21,7 +21,7 @@ PUSH_TIME = 0.2
 
 
 @lru_cache(maxsize=16)
-def loaded(robot: str) -> Robot:
+def loaded_robot(robot: str) -> Robot:
     """Return a robot, loaded once in each process."""
     return load_robot(robot)
 
@@ -66,7 +66,7 @@ def walk_case(
     Raises:
         InvalidInput: a value that cannot be.
     """
-    body = loaded(robot)
+    body = loaded_robot(robot)
     force, angle = impulse / PUSH_TIME, radians(direction % 360.0)
     along = (force * cos(angle), force * sin(angle), 0.0)
     settings: dict[str, Any] = {

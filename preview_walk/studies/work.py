@@ -140,9 +140,8 @@ def arguments_of(function: Callable[..., Any]) -> tuple[set[str], set[str], bool
 
 
 def _figures(work: Work, case: Case) -> Mapping[str, Any]:
-    _, takes, anything = arguments_of(work.function)
     given = dict(case.values)
-    if "seed" in takes or anything:
+    if "seed" in arguments_of(work.function)[1]:
         given.setdefault("seed", case.seed)
     margin = work.margin
     if margin is None:
