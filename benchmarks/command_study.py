@@ -9,20 +9,13 @@ code is 1 where one does not.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from functools import cache
 from math import nan, pi, radians
-from multiprocessing import get_context
-
-# One thread for each walk: their matrices are small, and the walks run beside each other.
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+from typing import Any
 
 import numpy as np
-from tqdm import tqdm
+from campaign import make_parser, run
 
 import preview_walk as pw
 from preview_walk import gait_limits
@@ -65,10 +58,9 @@ def obey(robot: pw.Robot, table: Timetable) -> pw.Record:
     return walk.run().record()
 
 
-@cache
 def talos() -> pw.Robot:
     """Return TALOS, loaded once for each process."""
-    return pw.load_robot("talos")
+    return pw.loaded_robot("talos")
 
 
 def straight_walk(steps: int, start: Command = (0.0, 0.0, 0.0), friction: float = 0.8) -> pw.Record:
@@ -123,9 +115,17 @@ def studies() -> Iterator[tuple[str, Callable[..., pw.Record], tuple[object, ...
     yield "200 steps", straight_walk, (200,)
 
 
-def figures(work: Callable[..., pw.Record], arguments: tuple[object, ...]) -> pw.Summary:
-    """Return the figures of one walk; runs in a process of its own."""
-    return work(*arguments).summary()
+def walked(walk: str) -> dict[str, Any]:
+    """Return the figures of the walk of a name; it succeeds if it did what it must."""
+    work, arguments = next((call, args) for name, call, args in studies() if name == walk)
+    summary = work(*arguments).summary()
+    return {
+        "success": held(summary),
+        "line": row(walk, summary),
+        "com_error": summary.com_error_rms,
+        "end": summary.final_position_error,
+        "yaw": summary.final_yaw_error,
+    }
 
 
 def held(summary: pw.Summary) -> bool:
@@ -148,24 +148,20 @@ def row(name: str, summary: pw.Summary) -> str:
     )
 
 
-def main() -> int:
-    """Run every walk, print the table; return 1 where one did not hold."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes (default: all)")
-    jobs = parser.parse_args().jobs
-    work = list(studies())
-    done: dict[str, pw.Summary] = {}
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(figures, call, args): name for name, call, args in work}
-        for future in tqdm(as_completed(futures), total=len(work), unit="walk"):
-            done[futures[future]] = future.result()
+def study(given: argparse.Namespace) -> pw.Study:
+    """Return all walks."""
+    return pw.Study({"walk": [name for name, _, _ in studies()]}, walked, name="command study")
+
+
+def report(results: pw.Results, given: argparse.Namespace) -> int:
+    """Print the table; return 1 where a walk did not hold."""
     print(HEAD)
-    for name, _, _ in work:
-        print(row(name, done[name]))
-    lost = [name for name, summary in done.items() if not held(summary)]
-    print(f"{len(work) - len(lost)} of {len(work)} walks held")
-    return 1 if lost else 0
+    for line in results.table["line"].dropna():
+        print(line)
+    count = int(results.table["success"].sum())
+    print(f"{count} of {len(results)} walks held")
+    return 0 if count == len(results) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(make_parser(__doc__, "command_study"), study, report))

@@ -6,29 +6,19 @@
   by going up in steps of a twentieth of sqrt(g leg) until it fails, then halving to `CLOSE`. What
   it may hold by luck beyond does not count.
 
-Finished robots are kept in the folder; run again to go on where it stopped.
-
-    python benchmarks/robots.py --jobs 2 --out robots
+    python benchmarks/robots.py --jobs 2
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from math import pi, sqrt
-from multiprocessing import get_context
-from pathlib import Path
 from typing import Any
 
-# One thread for each walk: their matrices are small, and the walks run beside each other.
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
+from campaign import make_parser, run
 from speed_sweep import holds, walk_at
-from tqdm import tqdm
 
 import preview_walk as pw
 from preview_walk import catalogue, command_limits, turn_in_place
@@ -55,11 +45,11 @@ def fastest(name: str, unit: float) -> dict[str, Any]:
     """Return the figures of the fastest walk held; `unit` (m/s) is sqrt(g leg)."""
     best: dict[str, Any] = {"speed": 0.0}
     held, failed = 0.0, 0.05 * unit
-    while holds(failed, summary := walk_at(name, failed)):
+    while holds(failed, summary := walk_at(name, failed).summary()):
         held, failed, best = failed, failed + 0.05 * unit, figures(summary)
     while failed - held > CLOSE * unit * 1.01:
         speed = 0.5 * (held + failed)
-        summary = walk_at(name, speed)
+        summary = walk_at(name, speed).summary()
         if holds(speed, summary):
             held, best = speed, figures(summary)
         else:
@@ -67,23 +57,24 @@ def fastest(name: str, unit: float) -> dict[str, Any]:
     return best
 
 
-def study(name: str) -> dict[str, Any]:
-    """Return a robot's row."""
-    robot = pw.load_robot(name)
+def walked_by(name: str) -> dict[str, Any]:
+    """Return a robot's row; it succeeds where neither the straight walk nor the turn falls."""
+    robot = pw.loaded_robot(name)
     unit = sqrt(GRAVITY * robot.leg_length)
     time = 3.13 * unit / GRAVITY
     planner = pw.FootstepPlanner(0.25 * robot.leg_length, robot.step_width, time)
-    straight = pw.simulate(robot, planner.generate_footsteps(12)).summary()
-    turn = turn_in_place(0.5 * pi, planner, limits=command_limits(robot))
+    straight = figures(pw.simulate(robot, planner.generate_footsteps(12)).summary())
+    plan = turn_in_place(0.5 * pi, planner, limits=command_limits(robot))
+    turn = figures(pw.simulate(robot, plan).summary())
     return {
-        "name": name,
+        "success": not straight["fell"] and not turn["fell"],
         "title": robot.title,
         "mass": robot.mass,
         "joints": len(robot.joint_names),
         "leg": robot.leg_length,
         "com": robot.com_height,
-        "straight": figures(straight),
-        "turn": figures(pw.simulate(robot, turn).summary()),
+        "straight": straight,
+        "turn": turn,
         "fastest": fastest(name, unit),
     }
 
@@ -120,28 +111,26 @@ turn: CoM mm | torque | end | fastest m/s | of sqrt(g leg) | CoM mm |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|"""
 
 
-def main() -> int:
-    """Study all robots and print the table; return 1 where a straight walk or a turn fell."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--robots", nargs="*", default=catalogue(), help="names (default: all)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes (default: all)")
-    parser.add_argument("--out", type=Path, default=Path("robots"), help="folder of the results")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+def study(given: argparse.Namespace) -> pw.Study:
+    """Return the robots."""
+    return pw.Study({"name": given.robots}, walked_by, name="robots")
 
-    files = {name: options.out / f"{name}.json" for name in options.robots}
-    rest = [name for name, file in files.items() if not file.exists()]
-    with ProcessPoolExecutor(options.jobs, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(study, name): name for name in rest}
-        for future in tqdm(as_completed(futures), total=len(rest), unit="robot"):
-            part = files[futures[future]].with_suffix(".part")
-            part.write_text(json.dumps(future.result(), indent=2) + "\n")
-            part.replace(files[futures[future]])
 
-    rows = [json.loads(file.read_text()) for file in files.values()]
+def report(results: pw.Results, given: argparse.Namespace) -> int:
+    """Print the table; return 1 where a straight walk or a turn fell."""
+    done = results.table[results.table["outcome"] == "done"]
     print(HEAD)
-    print("\n".join(row(facts) for facts in rows))
-    return int(any(facts[walk]["fell"] for facts in rows for walk in ("straight", "turn")))
+    for facts in done.to_dict("records"):
+        walks = {name: json.loads(facts[name]) for name in ("straight", "turn", "fastest")}
+        print(row({**facts, **walks}))
+    return 0 if results.table["success"].all() else 1
+
+
+def main() -> int:
+    """Study all robots; return 1 where one fell."""
+    parser = make_parser(__doc__, "robots")
+    parser.add_argument("--robots", nargs="*", default=catalogue(), help="names (default: all)")
+    return run(parser, study, report)
 
 
 if __name__ == "__main__":
