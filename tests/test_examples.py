@@ -15,6 +15,7 @@ others' output is compared with their pages by `test_documents.py`."""
 
 SHORTER = {
     "com_generators": ("--steps", "6"),
+    "pushes_study": ("2",),
     "ground": ("--ground", "stairs:rise=0.15,tread=0.28,count=2", "--steps", "6"),
 }
 """Arguments of examples that do the same several times over."""
