@@ -2,8 +2,9 @@
 
     python examples/pushes_study.py [HOW MANY]
 
-Two minutes on two cores; HOW MANY does so many of them. Stopped and started again, it goes on where it was. The folder `pushes_study` holds the rows
-(Parquet, JSON lines), a page `report.html`, and the map `survived.png`.
+Two minutes on two cores; HOW MANY does so many of them. Stopped and started again, it goes on where
+it was. The folder `pushes_study` holds the rows (Parquet, JSON lines), a page `report.html`, and
+the map `survived.png`.
 """
 
 import sys

@@ -11,6 +11,7 @@ import numpy as np
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.load import spec_of
 from preview_walk.robots.robot import Robot
+from preview_walk.simulation.studs import FIELD, add_studs
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.terrain.height_field import HeightField
 from preview_walk.terrain.slabs import Slab, SlabGround
@@ -84,10 +85,11 @@ def _add_field(spec: mujoco.MjSpec, field: HeightField) -> None:
         hfieldname="ground",
         pos=(field.x + half[0], field.y + half[1], low),
         rgba=COLOUR,
-        contype=2,
-        conaffinity=1,
+        contype=FIELD,
+        conaffinity=0,
         condim=3,
     )
+    add_studs(spec)
 
 
 def _add_slab(spec: mujoco.MjSpec, name: str, slab: Slab) -> None:
