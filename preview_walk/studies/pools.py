@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 from concurrent.futures import Executor, Future
 from importlib.util import find_spec
+from time import sleep
 from typing import Any, Protocol
 
 from preview_walk.arguments import shown
@@ -54,7 +56,7 @@ class LocalPool:
         from joblib.externals.loky import ProcessPoolExecutor
 
         return ProcessPoolExecutor(
-            self.jobs, initializer=_leave_signals_to_the_parent, env=_ONE_THREAD
+            self.jobs, initializer=_obey_the_parent, initargs=(os.getpid(),), env=_ONE_THREAD
         )
 
     @property
@@ -147,6 +149,13 @@ def workers_of(jobs: int | None) -> int:
     return jobs if jobs is not None else len(os.sched_getaffinity(0))
 
 
-def _leave_signals_to_the_parent() -> None:
-    """Ignore Ctrl-C in a worker: the parent gets it too, and ends the workers."""
+def _obey_the_parent(parent: int) -> None:
+    """Leave Ctrl-C to the parent, which ends its workers; end where the parent was killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: int) -> None:
+    while os.getppid() == parent:
+        sleep(1.0)
+    os._exit(1)

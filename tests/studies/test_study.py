@@ -34,6 +34,10 @@ def test_one_worker_and_two_come_to_the_same(tmp_path: Path) -> None:
     same_rows(pw.read_results(tmp_path / "1"), two)
 
 
+def children_of(pid: int) -> list[str]:
+    return Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+
+
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_study_that_is_stopped_goes_on_and_nothing_is_done_twice(
     tmp_path: Path, stop: signal.Signals
@@ -52,8 +56,13 @@ def test_a_study_that_is_stopped_goes_on_and_nothing_is_done_twice(
     until = time.monotonic() + 60.0
     while time.monotonic() < until and not (rows.exists() and rows.read_bytes().count(b"\n") >= 5):
         time.sleep(0.02)
+    workers = [int(pid) for pid in children_of(process.pid)]
     process.send_signal(stop)
     process.wait(30.0)
+    assert len(workers) >= 2
+    while any(Path(f"/proc/{pid}").exists() for pid in workers):  # none outlives the study
+        assert time.monotonic() < until + 30.0
+        time.sleep(0.05)
     done = rows.read_bytes().count(b"\n")
     assert 5 <= done < 36
     resumed = run(study, tmp_path / "out", resume=True)
