@@ -80,6 +80,7 @@ from .robots.robot import Robot as Robot
 from .robots.load import load_robot as load_robot
 from .robots.listing import list_robots as list_robots
 from .robots.reading.description import catalogue as catalogue
+from .robots.reading.description import models_folder as models_folder
 from .robots.inspection import inspect_robot as inspect_robot
 from .robots.standing import at_com_height as at_com_height
 from .robots.standing import standing_configuration as standing_configuration

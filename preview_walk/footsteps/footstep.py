@@ -20,7 +20,8 @@ _LAB_KEYS = ("foot", "pos", "time", "type")
 class Footstep:
     """One sole on the ground: where it is put down, and when the foot flies there.
 
-    It answers to the walking lab's keys (foot, pos, time, type) as a dictionary does.
+    It answers to the walking lab's keys (foot, pos, time, type) as a dictionary does; the lab's pos
+    is (x, y).
 
     Attributes:
         foot: "left" or "right".
@@ -104,7 +105,7 @@ class Footstep:
         """Return one of the walking lab's keys: foot, pos, time, type."""
         if key not in self:
             raise KeyError(f"a footstep has the keys {', '.join(_LAB_KEYS)}, not {key!r}")
-        return getattr(self, key)
+        return self.pos[:2] if key == "pos" else getattr(self, key)
 
     def get(self, key: str, default: Any = None) -> Any:
         """Return one of the walking lab's keys, or `default` for another one.
@@ -113,4 +114,12 @@ class Footstep:
             key: foot, pos, time or type.
             default: returned for any other key.
         """
-        return getattr(self, key) if key in self else default
+        return self[key] if key in self else default
+
+    def values(self) -> tuple[Any, ...]:
+        """Return what stands under the lab's keys."""
+        return tuple(self[key] for key in _LAB_KEYS)
+
+    def items(self) -> tuple[tuple[str, Any], ...]:
+        """Return the lab's keys with what stands under them."""
+        return tuple(zip(_LAB_KEYS, self.values(), strict=True))

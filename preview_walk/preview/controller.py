@@ -21,6 +21,7 @@ from preview_walk.preview.checks import positive, read_only, real_array, require
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
 from preview_walk.preview.horizon import MAX_HORIZON
+from preview_walk.preview.lab_names import LabNames
 from preview_walk.preview.response import PreviewFilter
 from preview_walk.preview.zmp_input import check_times, read_zmp_reference, start_rows, two_numbers
 from preview_walk.types import Array
@@ -28,7 +29,7 @@ from preview_walk.types import Array
 __all__ = ["ComState", "ComTrajectory", "PreviewController"]
 
 
-class PreviewController:
+class PreviewController(LabNames):
     """CoM trajectories that track a ZMP reference known `preview_time` ahead (Kajita 2003).
 
     Attributes:

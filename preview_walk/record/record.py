@@ -97,7 +97,7 @@ class Record(ReadOnlyArrays, Ticks):
         return mujoco_qvel(self.q, self.v)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return the arrays of the ticks by name; those of `sensed` begin with "sensed_"."""
+        """Return the arrays of the ticks by name; those of `sensed` begin with `sensed_`."""
         more = {} if self.sensed is None else self.sensed.arrays()
         ticks = {name: getattr(self, name) for name in FIELDS}
         return {**ticks, **{PREFIX + name: array for name, array in more.items()}}

@@ -40,8 +40,8 @@ class Summary:
             heading of the moment, so that it does not depend on where the robot faces.
         zmp_error_rms: [x, y], m, likewise.
         torque_ratio_max: largest share of a motor's limit.
-        cost_of_transport: absolute mechanical work, the sum of |torque x joint rate| over time, per
-            weight and distance: braking costs as much as driving.
+        cost_of_transport: absolute mechanical work, the sum over time of the size of
+            torque times joint rate, per weight and distance: braking costs as much as driving.
         cost_of_transport_positive: the same of positive work alone: braking is free.
         tick_ms: median, p99 and max of the control tick's wall time, ms.
         qp_ms: the same of its QP.

@@ -156,8 +156,10 @@ def test_a_footstep_answers_as_a_dictionary_does():
     assert step.get("foot") == step["foot"] == "left"
     assert step.get("colour") is None
     assert step.get("colour", "red") == "red"
-    x, y, z = step["pos"]
-    assert [x, y, z] == step.get("pos").tolist()
+    x, y = step["pos"]
+    assert [x, y] == step.get("pos").tolist() == step.pos[:2].tolist()
+    assert dict(step.items()).keys() == dict(step).keys() == set(KEYS)
+    assert step.values()[::2] == (step.foot, step.land)
     with pytest.raises(KeyError, match="foot, pos, time, type"):
         step["colour"]
     assert isinstance(step, Footstep)
