@@ -35,13 +35,16 @@ html_theme_options = {"navigation_with_keys": True}
 
 myst_heading_anchors = 3
 myst_enable_extensions = ["colon_fence", "smartquotes"]
-nb_execution_mode = "cache"
+nb_execution_mode = "force"
 nb_execution_timeout = 300
 nb_execution_raise_on_error = True
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "signature"
-autodoc_default_options = {"members": True, "show-inheritance": False}
+autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+autodoc_default_options = {"members": True}
 autodoc_type_aliases = {"Array": "Array", "Foot": "Foot"}
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
