@@ -156,6 +156,8 @@ from .record.sensed import Sensed as Sensed
 from .record.plan_log import PlanLog as PlanLog
 from .record.plan_log import PlanRevision as PlanRevision
 from .record.summary import Summary as Summary
+from .record.mcap_file import write_mcap as write_mcap
+from .analysis.plots import figure as figure
 from .analysis.plots import plot as plot
 from .analysis.plots import plot_all as plot_all
 from .analysis.plots import save_plot as save_plot

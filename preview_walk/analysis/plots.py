@@ -107,6 +107,24 @@ PLOTS: dict[str, Callable[[Record], Figure]] = {
 }
 """Every single plot by the name of its file."""
 
+OVERVIEW = "overview"
+"""Name of all of them on one page."""
+
+
+def figure(record: Record, name: str = OVERVIEW) -> Figure:
+    """Return a plot of a run as a figure of matplotlib, which notebooks show.
+
+    Args:
+        record: of the run.
+        name: "overview", or a name in `PLOTS`.
+
+    Raises:
+        InvalidInput: there is no such plot, or the record is empty or not finite.
+    """
+    draw = overview if name == OVERVIEW else _plot_of(name)
+    _require_ticks(record)
+    return draw(record)
+
 
 def plot(record: Record, path: str | os.PathLike[str]) -> Path:
     """Write the overview of a run to one picture (.png, .pdf, .svg, ...); return its path.
@@ -128,13 +146,10 @@ def save_plot(record: Record, name: str, path: str | os.PathLike[str]) -> Path:
             suffix.
         OutputError: the file cannot be written.
     """
-    if not isinstance(name, str) or name not in PLOTS:
-        raise InvalidInput(
-            f"a plot's name must be one of {', '.join(PLOTS)}, got {shown(name)}.", argument="name"
-        )
+    draw = _plot_of(name)
     _require_ticks(record)
     target = picture_path(path)
-    return save_figure(PLOTS[name](record), target)
+    return save_figure(draw(record), target)
 
 
 def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
@@ -148,6 +163,14 @@ def plot_all(record: Record, folder: str | os.PathLike[str]) -> list[Path]:
     if not is_folder(folder):
         raise OutputError(f"cannot write to {short(as_path(folder))}: there is no such folder.")
     return [save_plot(record, name, as_path(folder) / f"{name}.png") for name in PLOTS]
+
+
+def _plot_of(name: str) -> Callable[[Record], Figure]:
+    if not isinstance(name, str) or name not in PLOTS:
+        raise InvalidInput(
+            f"a plot's name must be one of {', '.join(PLOTS)}, got {shown(name)}.", argument="name"
+        )
+    return PLOTS[name]
 
 
 def _require_ticks(record: Record) -> None:

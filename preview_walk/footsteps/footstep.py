@@ -114,7 +114,7 @@ class Footstep:
             key: foot, pos, time or type.
             default: returned for any other key.
         """
-        return self[key] if key in self else default
+        return self[key] if key in _LAB_KEYS else default
 
     def values(self) -> tuple[Any, ...]:
         """Return what stands under the lab's keys."""

@@ -15,6 +15,7 @@ from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.order import check_order, is_stand
 from preview_walk.geometry.poses import as_pose
+from preview_walk.html import html_table
 from preview_walk.types import (
     DOUBLE_SUPPORT,
     FEET,
@@ -119,6 +120,11 @@ class FootstepPlan(Sequence[Footstep]):
 
     def __repr__(self) -> str:
         return f"FootstepPlan({len(self.steps)} steps, {self.start:.3f} s to {self.end:.3f} s)"
+
+    def _repr_html_(self) -> str:
+        """Return the steps as a notebook shows them."""
+        rows = [(f"{k} {step.foot}", repr(step)) for k, step in enumerate(self.steps)]
+        return html_table(repr(self), rows)
 
     @property
     def steps(self) -> tuple[Footstep, ...]:

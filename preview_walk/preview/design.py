@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from preview_walk.html import html_table
 from preview_walk.preview.checks import Value, read_only
 from preview_walk.preview.plant import Plant, as_state_space
 from preview_walk.types import Array
@@ -67,6 +68,17 @@ class PreviewDesign(Value):
     def __repr__(self) -> str:
         action = "with" if self.integral else "without"
         return f"PreviewDesign({self.plant!r}, N = {self.horizon}, {action} integral action)"
+
+    def _repr_html_(self) -> str:
+        """Return the gains as a notebook shows them."""
+        rows = [
+            ("plant", repr(self.plant)),
+            ("integral gain", np.array2string(self.integral_gain, precision=5)),
+            ("state gain", np.array2string(self.state_gain, precision=5)),
+            ("horizon", f"{self.horizon} samples, {self.horizon * self.dt:g} s"),
+            ("share of the slow mode past it", f"{self.neglected:.2g}"),
+        ]
+        return html_table("PreviewDesign", rows)
 
     @cached_property
     def system(self) -> control.StateSpace:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
+from preview_walk.files import whole_file
+from preview_walk.html import html_table
 from preview_walk.record.fields import FIELDS, Ticks
 from preview_walk.record.file import read_file, write_file
 from preview_walk.record.mujoco_state import mujoco_qpos, mujoco_qvel
@@ -18,13 +21,15 @@ from preview_walk.record.read_only import ReadOnlyArrays, own_array
 from preview_walk.record.run_facts import RunFacts
 from preview_walk.record.sensed import SENSED, Sensed
 from preview_walk.record.summarize import summarize
-from preview_walk.record.summary import Summary
+from preview_walk.record.summary import Summary, rows_of
+from preview_walk.record.table import PREFIX, dataset_of, frame_of
 from preview_walk.terrain.facts import ground_of
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.types import Array
 
-PREFIX = "sensed_"
-"""With which the names of what was sensed begin in a file."""
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -138,6 +143,47 @@ class Record(ReadOnlyArrays, Ticks):
     def summary(self) -> Summary:
         """Return the figures of the run; it prints as a table."""
         return summarize(self, self.plans, self.run, self.sensed)
+
+    def to_dataframe(self, fields: Sequence[str] | None = None) -> pd.DataFrame:
+        """Return a pandas table: one row a tick over `time` (s), one column a number.
+
+        Columns are named by field and axis (`com_x`, `left_force_fz`, `tau_leg_left_4_joint`,
+        `q_base_qw`); poses become place and quaternion (`left_foot_x`, ..., `left_foot_qw`). The
+        units are in `attrs["units"]`.
+
+        Args:
+            fields: names of arrays; None: all.
+
+        Raises:
+            InvalidInput: there is no such array, or pandas is not installed.
+        """
+        return frame_of(self.arrays(), self.run.joint_names, fields)
+
+    def to_csv(self, path: str | os.PathLike[str], fields: Sequence[str] | None = None) -> Path:
+        """Write the table of `to_dataframe` as CSV, whole or not at all; return its path.
+
+        `fields=["q"]` are joint trajectories, angles in rad over time in s.
+
+        Raises:
+            InvalidInput: as `to_dataframe` does.
+            OutputError: the file cannot be written.
+        """
+        table = self.to_dataframe(fields)
+        with whole_file(path) as part:
+            table.to_csv(part)
+        return Path(path)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the arrays as an xarray dataset with named axes, units and the run's facts.
+
+        Raises:
+            InvalidInput: xarray is not installed.
+        """
+        return dataset_of(self.arrays(), self.run.joint_names, self.run.as_dict())
+
+    def _repr_html_(self) -> str:
+        """Return the figures of the run as a notebook shows them."""
+        return html_table(repr(self), rows_of(self.summary()))
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the record to one compressed .npz file, whole or not at all; return its path.

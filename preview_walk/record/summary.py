@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from preview_walk.files import whole_file
+from preview_walk.html import html_table
 
 Figures = dict[str, float] | None
 
@@ -88,6 +89,10 @@ class Summary:
         robot = self.robot or "unknown robot"
         return f"Summary({robot}, {self.duration:.3f} s, {self.steps} steps, {_outcome(self)})"
 
+    def _repr_html_(self) -> str:
+        """Return the table as a notebook shows it."""
+        return html_table(repr(self), rows_of(self))
+
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write `summary.json`, whole or not at all; return its path.
 
@@ -119,6 +124,13 @@ def _finite(value: Any) -> Any:
 
 def table(summary: Summary) -> str:
     """Return one aligned line per figure: name, value, unit."""
+    rows = rows_of(summary)
+    width = max(len(name) for name, _ in rows)
+    return "\n".join(f"{name:{width}}  {value}" for name, value in rows)
+
+
+def rows_of(summary: Summary) -> list[tuple[str, str]]:
+    """Return the figures as they are shown: name, value with its unit."""
     s = summary
     rows = [
         ("robot", s.robot or "unknown"),
@@ -146,8 +158,7 @@ def table(summary: Summary) -> str:
             ("position drift", _value(s.drift, 2, "% of the way", 1e2)),
             ("readings refused", str(s.refused)),
         ]
-    width = max(len(name) for name, _ in rows)
-    return "\n".join(f"{name:{width}}  {value}" for name, value in rows)
+    return rows
 
 
 def _outcome(s: Summary) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.geometry.support import Sole
+from preview_walk.html import html_table
 from preview_walk.robots.building.leg import Leg
 from preview_walk.robots.finding.soles import SolePatch
 from preview_walk.robots.finding.structure import Structure
@@ -145,6 +146,20 @@ class Robot:
             f"<Robot '{self.name}': {self.mass:.1f} kg, {len(self.joint_names)} joints, "
             f"legs of {self.leg_length:.3f} m>"
         )
+
+    def _repr_html_(self) -> str:
+        """Return the robot's facts as a notebook shows them."""
+        sole = self.sole
+        size = f"{2e3 * sole.half_length:.0f} x {2e3 * sole.half_width:.0f} mm"
+        rows = [
+            ("mass", f"{self.mass:.1f} kg"),
+            ("joints", str(len(self.joint_names))),
+            ("leg", f"{self.leg_length:.3f} m"),
+            ("CoM above the soles", f"{self.com_height:.3f} m"),
+            ("step width", f"{self.step_width:.3f} m"),
+            ("sole", size),
+        ]
+        return html_table(self.title or self.name, rows)
 
     @property
     def gravity(self) -> float:
