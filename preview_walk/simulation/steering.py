@@ -75,6 +75,11 @@ class Steered:
 
         self._take(tune)
 
+    @property
+    def commanded(self) -> Command:
+        """The velocity command in force: vx, vy (m/s), yaw rate (rad/s); zeros where none is."""
+        return self._commands.current
+
     def command(self, vx: float, vy: float, wz: float) -> None:
         """Walk at this velocity from now on, until another command; zeros stop the walk.
 

@@ -170,6 +170,16 @@ class Walk(Steered):
         return self._fall is not None
 
     @property
+    def fall_reason(self) -> str:
+        """Why the robot fell, in words; "" while it has not."""
+        return "" if self._fall is None else self._fall[1]
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run was ended by Ctrl-C or `interrupt`."""
+        return self._interrupted
+
+    @property
     def finished(self) -> bool:
         """Whether the plan is walked and the robot has stood for a while after it, or it fell."""
         return self.fallen or self._interrupted or self.time >= self._end - _ROUNDING
