@@ -129,8 +129,7 @@ class Walk(Steered):
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = function_of(on_tick, "on_tick")
-        self._requests = Requests()
-        self._retuned = []
+        self._requests, self._retuned = Requests(), []
         self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
         self._fall: tuple[float, str] | None = None
         self._recorder = WalkRecorder(

@@ -18,7 +18,12 @@ HIDDEN_GROUP = 3
 """Geoms of this group and beyond are for contacts alone, as in MuJoCo's own viewer."""
 
 EDGE = 0.5
-"""Faces that meet at more than this angle (rad) meet at an edge, and are shaded apart."""
+"""Faces of the ground that meet at more than this angle (rad) meet at an edge, which is drawn."""
+
+FACETED = 500
+"""A shape of so few faces is a box or the like: its faces are flat, those of a mesh are not."""
+
+EDGE_COLOUR = (70, 75, 80)
 
 SHADE = 0.6
 """The ground is drawn darker than it is: under the page's bright light its edges show then."""
@@ -79,17 +84,25 @@ def _name(model: mujoco.MjModel, body: int) -> str:
 def _add_solids(scene: SceneApi, name: str, model: mujoco.MjModel, geoms: list[int]) -> None:
     """Add the meshes and simple shapes of a body, as few nodes as their textures allow."""
     from mjviser.conversions import group_geoms_by_visual_compat, merge_geoms
-    from trimesh.graph import smooth_shade
     from trimesh.visual import ColorVisuals
 
     fixed = model.body_weldid[model.geom_bodyid[geoms[0]]] == 0 if geoms else False
     for number, alike in enumerate(group_geoms_by_visual_compat(model, geoms)):
         mesh = merge_geoms(model, alike)
-        if isinstance(mesh.visual, ColorVisuals):
-            mesh = smooth_shade(mesh, angle=EDGE)
-            if fixed:
-                mesh.visual.vertex_colors[:, :3] = SHADE * mesh.visual.vertex_colors[:, :3]
+        if fixed:
+            _add_edges(scene, f"{name}/edges_{number}", mesh)
+        if fixed or len(mesh.faces) <= FACETED:
+            mesh.unmerge_vertices()  # so that every face has its own normal
+        if fixed and isinstance(mesh.visual, ColorVisuals):
+            mesh.visual.vertex_colors[:, :3] = SHADE * mesh.visual.vertex_colors[:, :3]
         scene.add_mesh_trimesh(f"{name}/mesh_{number}", mesh)
+
+
+def _add_edges(scene: SceneApi, name: str, mesh: Any) -> None:
+    """Draw the edges of the ground, which are not seen from above otherwise."""
+    sharp = mesh.face_adjacency_edges[mesh.face_adjacency_angles > EDGE]
+    if len(sharp):
+        scene.add_line_segments(name, mesh.vertices[sharp], colors=EDGE_COLOUR)
 
 
 def _add_plane(scene: SceneApi, name: str, model: mujoco.MjModel, geom: int) -> None:

@@ -23,7 +23,7 @@ LAG = 0.3
 JUMP = 1.0
 """A robot that is further off (m), as after a leap in time, is followed at once."""
 
-VIEW = (2.2, -2.4, 1.5)
+VIEW = (1.3, -3.4, 1.6)
 """The camera at first, from between the feet, in heights of the CoM."""
 
 

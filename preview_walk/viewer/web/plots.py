@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_hex
 
-from preview_walk.analysis.style import COM, DCM, ZMP
+from preview_walk.analysis.style import COM, DCM, ZMP, darker
 from preview_walk.types import Array
 from preview_walk.viewer.web.nodes import ROOT
 from preview_walk.viewer.web.traces import POINTS, SPAN, place
@@ -18,7 +19,7 @@ COLOURS = dict(zip(POINTS, (COM, ZMP, DCM), strict=True))
 NAMES = dict(zip(POINTS, ("CoM", "ZMP", "DCM"), strict=True))
 AXES = {"x": "x, forward at the start [m]", "y": "y, to the left [m]"}
 
-HEIGHT, PANEL = 240, 360
+HEIGHT, PANEL = 215, 360
 """Of a plot and the width of their panel, pixels."""
 
 MARK = 0.025
@@ -47,7 +48,7 @@ class Plots:
                     title=title,
                     height=HEIGHT,
                     scales={"x": {"time": False, "auto": True}},
-                    legend={"show": True},
+                    legend={"show": True, "live": False},
                 )
                 self._plots.append(plot)
 
@@ -91,7 +92,10 @@ def _series() -> list[Any]:
     """Return how the lines of a plot look, in the order of a row."""
     series = []
     for point in POINTS:
-        line = {"stroke": COLOURS[point], "points": {"show": False}}
-        series.append({**line, "label": NAMES[point], "width": 2.0})
-        series.append({**line, "label": f"{NAMES[point]} planned", "width": 1.0, "dash": (6, 4)})
+        planned = to_hex(darker(COLOURS[point]))
+        for label, look in (
+            (NAMES[point], {"stroke": COLOURS[point], "width": 2.5}),
+            ("planned", {"stroke": planned, "width": 1.5, "dash": (6, 4)}),
+        ):
+            series.append({**look, "label": label, "points": {"show": False}})
     return series

@@ -69,9 +69,10 @@ class Replay:
         self._playing = playing
         self._play.label = "Pause" if playing else "Play"
 
-    def _go(self, event: Any) -> None:
-        if event.client is not None:  # not the replay's own move of the slider
-            self._at = float(self._slider.value)
+    def _go(self, _: Any) -> None:
+        wanted = float(self._slider.value)
+        if wanted != round(self._at, 2):  # else it is the replay's own move of the slider
+            self._at = wanted
 
     def picture(self) -> None:
         """Show the moment, and go on to the next."""

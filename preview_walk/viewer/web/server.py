@@ -5,10 +5,11 @@ from __future__ import annotations
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
+from errno import EADDRINUSE
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from preview_walk.arguments import shown
+from preview_walk.arguments import count_of, shown
 from preview_walk.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -39,37 +40,37 @@ def require_port(port: object, host: object = HOST) -> tuple[int, str]:
     Raises:
         InvalidInput: a port that cannot be or is taken, or a host that is not of this machine.
     """
-    if type(port) is bool or not isinstance(port, int) or not 0 <= port <= LARGEST_PORT:
-        raise InvalidInput(
-            f"port must be a whole number from 0 (any that is free) to {LARGEST_PORT}, "
-            f"got {shown(port)}.",
-            "port",
-        )
-    if not isinstance(host, str) or not host:
-        raise InvalidInput(
-            f"host must be the name or address of this machine, got {shown(host)}.", "host"
-        )
-    try:
-        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-    except (OSError, UnicodeError):
-        raise InvalidInput(
-            f"host must be the name or address of this machine, got {shown(host)}.", "host"
-        ) from None
+    number = count_of(port, "port", LARGEST_PORT)
+    family = _family(host)
     with socket.socket(family, socket.SOCK_STREAM) as trial:
         trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            trial.bind((host, port))
+            trial.bind((host, number))
         except PermissionError:
             raise InvalidInput(
-                f"port must be one that this user may open, 1024 or more, got {port}.", "port"
+                f"port must be one that this user may open, from 1024 on, got {number}.", "port"
             ) from None
         except OSError as error:
+            at_fault = "port" if error.errno == EADDRINUSE else "host"
+            what = "free" if at_fault == "port" else "an address of this machine"
             raise InvalidInput(
-                f"port must be free, got {port} at {host}, where the system says: "
-                f"{error.strerror}; another one may be given, or 0 for any that is free.",
-                "port",
+                f"{at_fault} must be {what}, got {number} at {shown(host)}; "
+                "0 takes any port that is free.",
+                at_fault,
             ) from None
-    return port, host
+    return number, str(host)
+
+
+def _family(host: object) -> socket.AddressFamily:
+    """Return the kind of a host's address; raises `InvalidInput` for what is no host."""
+    try:
+        if not isinstance(host, str) or not host:
+            raise OSError
+        return socket.getaddrinfo(host, 0, type=socket.SOCK_STREAM)[0][0]
+    except (OSError, UnicodeError, ValueError):
+        raise InvalidInput(
+            f"host must be a name or an address of this machine, got {shown(host)}.", "host"
+        ) from None
 
 
 @contextmanager
@@ -93,7 +94,8 @@ def page(port: int = 0, host: str = HOST) -> Iterator[ViserServer]:
         if port and server.get_port() != port:  # taken meanwhile; viser goes on to the next
             require_port(port, host)
             raise InvalidInput(f"port must be free, got {port} at {host}.", "port")
-        server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
+        server.gui.configure_theme(show_logo=False, show_share_button=False)
+        server.gui.main_panel.dock_right()
         yield server
     finally:
         with _quiet():
