@@ -166,6 +166,8 @@ from .analysis.top_view import draw_top_view as draw_top_view
 from .viewer.video import FPS as FPS
 from .viewer.video import frames as frames
 from .viewer.video import render_video as render_video
+from .viewer.web.export import export_html as export_html
+from .viewer.web.show import show as show
 from .viewer.window import run_in_viewer as run_in_viewer
 
 # The walking lab's classes.

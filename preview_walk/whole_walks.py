@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, Protocol, TypedDict
 
 from preview_walk.arguments import function_of
 from preview_walk.controller.robot_limits import gait_limits
@@ -41,12 +41,19 @@ class Settings(TypedDict, total=False):
     on_tick: Callable[[Walk], None] | None
 
 
+class Viewer(Protocol):
+    """Runs a walk where somebody watches it, as `show` does."""
+
+    def __call__(self, walk: Walk, /, *, progress: Progress | None) -> object:
+        """Run the walk; `progress`: as of `simulate`."""
+
+
 def simulate(
     robot: Robot,
     plan: PlanLike,
     *,
     progress: Progress | None = None,
-    viewer: bool = False,
+    viewer: bool | Viewer = False,
     **settings: Unpack[Settings],
 ) -> Record:
     """Walk a robot along a plan in MuJoCo and return the record.
@@ -58,7 +65,8 @@ def simulate(
         robot: from `load_robot`.
         plan: the footsteps, in any form that `as_plan` reads.
         progress: called now and then with the simulated time and its end (s).
-        viewer: open MuJoCo's live viewer and run in real time.
+        viewer: True opens MuJoCo's live viewer and runs in real time; a function, as `show`, runs
+            the walk in its place.
         settings: the keyword arguments of `Walk`.
 
     Raises:
@@ -69,7 +77,7 @@ def simulate(
     seen = settings.get("ground") is not None and not settings.get("blind")
     if not seen:
         require_walkable(plan, gait_limits(robot))
-    walk = Walk(robot, plan, visuals=viewer, **settings)
+    walk = Walk(robot, plan, visuals=viewer is True, **settings)
     if seen:  # only now are the soles where the ground has them
         require_walkable(walk.plan, gait_limits(robot))
     return _recorded(walk, progress, viewer)
@@ -81,7 +89,7 @@ def simulate_commands(
     *,
     start: Sequence[float] = (0.0, 0.0),
     progress: Progress | None = None,
-    viewer: bool = False,
+    viewer: bool | Viewer = False,
     **settings: Unpack[Settings],
 ) -> Record:
     """Walk a robot by velocity commands, each for its duration, then to a stop; return the record.
@@ -91,21 +99,24 @@ def simulate_commands(
         commands: pairs ((vx, vy, wz), duration) in m/s, m/s, rad/s and s.
         start: (x, y) or (x, y, yaw) midway between the feet at first (m, rad).
         progress: called now and then with the simulated time and its end (s).
-        viewer: open MuJoCo's live viewer and run in real time.
+        viewer: True opens MuJoCo's live viewer and runs in real time; a function, as `show`, runs
+            the walk in its place.
         settings: the keyword arguments of `Walk`.
 
     Raises:
         InvalidInput: a command or duration that cannot be; and as `Walk` does.
     """
     function_of(progress, "progress")
-    walk = Walk.standing(robot, start, visuals=viewer, **settings)
+    walk = Walk.standing(robot, start, visuals=viewer is True, **settings)
     walk.schedule(commands)
     return _recorded(walk, progress, viewer)
 
 
-def _recorded(walk: Walk, progress: Progress | None, viewer: bool) -> Record:
+def _recorded(walk: Walk, progress: Progress | None, viewer: bool | Viewer) -> Record:
     """Run a walk to its end and return its record."""
-    if viewer:
+    if callable(viewer):
+        viewer(walk, progress=progress)
+    elif viewer:
         from preview_walk.viewer.window import run_in_viewer
 
         run_in_viewer(walk, progress)

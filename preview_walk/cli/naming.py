@@ -33,6 +33,7 @@ OPTION_OF = {
     "solver": "--solver",
     "com_generator": "--com-generator",
     "realism": "--realism",
+    "port": "--port",
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 

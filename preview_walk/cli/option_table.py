@@ -15,6 +15,7 @@ DEFAULT_STEP_TIME = 0.9
 """Seconds from one landing to the next."""
 DEFAULT_DOUBLE_SUPPORT_RATIO = 0.2
 DEFAULT_OUT = "walk"
+DEFAULT_PORT = 8080
 MAX_STEPS = 100_000
 PUSH_TIME = 0.2
 """Seconds that each push of `--pushes` lasts."""
@@ -197,6 +198,13 @@ OPTIONS = (
         DEFAULT_OUT,
     ),
     Option(
+        "--port",
+        "N",
+        whole(0, 65535),
+        f"port of --web on this machine; 0 takes any that is free (default {DEFAULT_PORT})",
+        DEFAULT_PORT,
+    ),
+    Option(
         "--inspect",
         "NAME|PATH",
         text("the name of a robot or the path of its model"),
@@ -210,6 +218,7 @@ FLAGS = {
     "--no-plots": "write record.npz and summary.json only (and walk.mp4 where it is asked for)",
     "--video": "write walk.mp4 too; needs no screen",
     "--view": "show the walk live; needs a screen; the mouse can push the robot",
+    "--web": "show the walk live in the browser, to be steered and pushed; writes walk.html too",
     "--list-robots": "print the robots of the catalogue and end",
 }
 """The options that take none."""

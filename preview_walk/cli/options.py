@@ -11,6 +11,7 @@ from typing import Any
 
 from preview_walk.cli.option_table import (
     DEFAULT_DOUBLE_SUPPORT_RATIO,
+    DEFAULT_PORT,
     DEFAULT_STEP_LENGTH,
     DEFAULT_STEP_TIME,
     DEFAULT_STEPS,
@@ -41,7 +42,8 @@ class Options:
         solver: of the QP.
         com_generator: what leads the CoM along the plan.
         out: the folder of results.
-        video, view, no_plots: what to make of the walk.
+        video, view, web, no_plots: what to make of the walk.
+        port: of the page that `web` asks for.
         list_robots: print the catalogue, do not walk.
         inspect: the model to report on, not to walk.
     """
@@ -71,6 +73,8 @@ class Options:
     no_plots: bool = False
     blind: bool = False
     realism: str | None = None
+    web: bool = False
+    port: int = DEFAULT_PORT
 
 
 def parse(argv: Sequence[str] | None = None) -> Options:
@@ -121,6 +125,8 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         no_plots=found.no_plots,
         blind=found.blind,
         realism=found.realism,
+        web=found.web,
+        port=found.port,
     )
 
 

@@ -14,7 +14,8 @@ from preview_walk.files import OutputError, remove_stale_parts, whole_file
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 
-RECORD, SUMMARY, OVERVIEW, FILM = "record.npz", "summary.json", "walk.png", "walk.mp4"
+RECORD, SUMMARY, OVERVIEW = "record.npz", "summary.json", "walk.png"
+FILM, PAGE = "walk.mp4", "walk.html"
 Writers = Mapping[str, Callable[[Path], object]]
 """What writes each file, by its name."""
 
@@ -23,7 +24,7 @@ def result_names() -> tuple[str, ...]:
     """Return the names of all files that a run may write, most precious first."""
     from preview_walk.analysis.plots import PLOTS
 
-    return (RECORD, SUMMARY, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM)
+    return (RECORD, SUMMARY, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM, PAGE)
 
 
 def make_folder(folder: Path, names: Iterable[str]) -> None:
@@ -45,7 +46,7 @@ def make_folder(folder: Path, names: Iterable[str]) -> None:
 
 
 def writers_of(
-    record: Record, robot: Robot, *, pictures: bool, film: bool
+    record: Record, robot: Robot, *, pictures: bool, film: bool, page: bool = False
 ) -> tuple[Writers, Writers]:
     """Return what writes the figures of a run, and what writes its pictures."""
     from preview_walk.analysis.plots import PLOTS, plot, save_plot
@@ -57,6 +58,8 @@ def writers_of(
         drawn |= {f"{name}.png": partial(save_plot, record, name) for name in PLOTS}
     if film and len(record):
         drawn[FILM] = partial(_film, record, robot)
+    if page and len(record):
+        drawn[PAGE] = partial(_page, record, robot)
     return figures, drawn
 
 
@@ -94,6 +97,13 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(f"cannot replace {path}: {error.strerror}.") from error
+
+
+def _page(record: Record, robot: Robot, path: Path) -> None:
+    from preview_walk.viewer.web.export import export_html
+
+    with naming("--web"):
+        export_html(record, path, robot)
 
 
 def _film(record: Record, robot: Robot, path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import partial
 from typing import Any
 
 import preview_walk as pw
@@ -38,6 +39,8 @@ def run(options: Options, command: str, interruption: Interruption) -> Record:
     """
     with naming("--view"):
         _require_screen(options.view)
+    with naming("--web"):
+        _require_page(options)
     with naming("--robot"):
         robot = pw.load_robot(options.robot)
     with naming("--step-length"):
@@ -62,7 +65,11 @@ def _write(record: Record, robot: Robot, options: Options, interruption: Interru
         say(f"Stopped by {interruption.name} after {span}; this is the walk so far.")
     say(str(record.summary()))
     figures, pictures = writers_of(
-        record, robot, pictures=not options.no_plots, film=options.video and not stopped
+        record,
+        robot,
+        pictures=not options.no_plots,
+        film=options.video and not stopped,
+        page=options.web and not options.no_plots,
     )
     written, failure = write_results(options.out, figures, pictures, interruption)
     say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
@@ -99,7 +106,7 @@ def _walk(
             "pushes": pushes,
             "seed": options.seed,
             "progress": progress,
-            "viewer": options.view,
+            "viewer": partial(pw.show, port=options.port) if options.web else options.view,
             **{name: value for name, value in given.items() if value is not None},
         }
         if options.ground is not None:
@@ -141,6 +148,17 @@ def _random_pushes(options: Options, end: float) -> tuple[Push, ...]:
     if every >= end:
         raise InvalidInput(f"must begin before the walk ends at {end:.2f} s, got every={every:g}.")
     return random_pushes(every, impulse, PUSH_TIME, end, options.seed)
+
+
+def _require_page(options: Options) -> None:
+    if not options.web:
+        return
+    from preview_walk.viewer.web.server import require_port, require_web
+
+    if options.view:
+        raise InvalidInput("must be left out beside --view; one walk is watched in one place.")
+    require_web()
+    require_port(options.port)
 
 
 def _require_screen(view: bool) -> None:

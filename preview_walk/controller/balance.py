@@ -68,6 +68,10 @@ class Balance:
         self._limits = step_limits(robot.leg_length, robot.step_width, sole, omega)
         self.forget()
 
+    def tune(self, gains: TrackingGains) -> None:
+        """Feed back by other gains from now on."""
+        self._rates = FeedbackGains(self._rates.omega, gains.dcm, gains.height)
+
     def forget(self) -> None:
         """Know nothing of what was before."""
         self.disturbance, self._felt, self.slow = Disturbance(), Disturbance(), np.zeros(2)

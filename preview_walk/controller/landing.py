@@ -1,4 +1,7 @@
-"""Landing: where a robot in flight holds its soles, and on which it stands when it is down."""
+"""Landing: where a robot in flight holds its soles, and on which it stands when it is down.
+
+And where a sole of a walking robot lies that has come down early on ground that is known.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,12 @@ import numpy as np
 import pinocchio as pin
 
 from preview_walk.controller.feet import FootTarget
-from preview_walk.geometry.poses import pose_at, yaw_of
+from preview_walk.footsteps.footstep import Footstep
+from preview_walk.geometry.poses import pose_at, rpy_of, yaw_of
 from preview_walk.geometry.quintic import Quintic
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import CentroidalState
+from preview_walk.terrain.ground import Plane
 from preview_walk.tracking.dynamics import Dynamics
 from preview_walk.types import FEET, Array, Foot
 
@@ -119,3 +124,17 @@ def stood_soles(dynamics: Dynamics) -> dict[Foot, Array]:
         foot: pose_at(float(pose[0, 3]), float(pose[1, 3]), yaw_of(pose), z)
         for foot, pose in poses.items()
     }
+
+
+def on_ground(sole: Array, step: Footstep | None) -> Array:
+    """Return the pose (4, 4) of a sole that has come down on ground that is known to the plan.
+
+    It touches with an edge first, and tilted as an ankle's friction has left it: steps planned from
+    there would all be in the air.
+    """
+    if step is None:
+        return sole
+    x, y, _ = sole[:3, 3].tolist()
+    roll, pitch, _ = rpy_of(step.pose)
+    height = Plane.through(step.pos, step.pose[:3, 2]).height(x, y)
+    return pose_at(x, y, yaw_of(sole), float(height), pitch, roll)

@@ -13,15 +13,14 @@ from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
 from preview_walk.controller.feet import DEEP_SEARCH, NOISY_SEARCH, SEARCH, Feet
 from preview_walk.controller.friction import FrictionCompensation
 from preview_walk.controller.hardware import Hardware, smoothing_time
+from preview_walk.controller.landing import on_ground
 from preview_walk.controller.momentum_model import momentum_model
 from preview_walk.controller.robot_limits import gait_limits, leg_geometry
 from preview_walk.controller.torso import torso_motion
 from preview_walk.errors import InvalidInput
-from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.laying import ROUGH, UNEVEN, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.poses import pose_at, rpy_of, yaw_of
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
 from preview_walk.pattern.walker_model import WalkerModel
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
@@ -29,7 +28,7 @@ from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
 from preview_walk.stabilizer.com_feedback import CentroidalState, ComFeedback
 from preview_walk.stabilizer.flight import waiting
-from preview_walk.terrain.ground import Ground, Plane
+from preview_walk.terrain.ground import Ground
 from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_wrenches
 from preview_walk.tracking.whole_body import WholeBodyController
@@ -163,6 +162,12 @@ class Walker:
             raise refused
         self.follow(plan)
 
+    def tune(self, gains: TrackingGains) -> None:
+        """Take other weights and gains of the tracker from now on."""
+        self.gains = gains
+        self.body.tune(gains)
+        self.balance.tune(gains)
+
     def tick(
         self, t: float, q: Array, v: Array, wrench: Mapping[Foot, Array], spread: float = 0.0
     ) -> Array:
@@ -228,7 +233,7 @@ class Walker:
                 self.follow(plan)
         if early is not None:
             lies = self.blind or self.hardware is None
-            pose = soles[early] if lies else _on_ground(soles[early], self.plan.swing_at(t))
+            pose = soles[early] if lies else on_ground(soles[early], self.plan.swing_at(t))
             plan = self.balance.landed(t, self.plan, early, pose)
             if plan is not None:
                 self.follow(plan)
@@ -282,17 +287,3 @@ class Walker:
                 body.settle[foot] = np.zeros(6)
                 body.settle[foot][:3] = -target.sink * body.dynamics.soles[foot].rotation[2]
         body.torso.rotation, body.torso.velocity = torso_motion(targets)
-
-
-def _on_ground(sole: Array, step: Footstep | None) -> Array:
-    """Return the pose (4, 4) of a sole that has come down on ground that is known to the plan.
-
-    It touches with an edge first, and tilted as an ankle's friction has left it: steps planned from
-    there would all be in the air.
-    """
-    if step is None:
-        return sole
-    x, y, _ = sole[:3, 3].tolist()
-    roll, pitch, _ = rpy_of(step.pose)
-    height = Plane.through(step.pos, step.pose[:3, 2]).height(x, y)
-    return pose_at(x, y, yaw_of(sole), float(height), pitch, roll)

@@ -42,7 +42,8 @@ class RunFacts:
         realism: what was not perfect about the robot, as plain values; empty: nothing.
         seed: of whatever was random.
         solver: the QP solver's name.
-        gains: weights and gains of the tracker by name.
+        gains: weights and gains of the tracker by name, as the walk began.
+        retuned: one mapping per change of them under way: t (s), gains (all by name).
         pushes: one mapping per push: t (s), duration (s), force ([x, y, z], N, world), body (None:
             the base), point ([x, y, z], m, in the body's axes; None: its centre of mass).
         versions: of Python and of the packages, by name.
@@ -79,6 +80,7 @@ class RunFacts:
     seed: int = 0
     solver: str = ""
     gains: Mapping[str, Any] = ReadOnlyMapping({})
+    retuned: tuple[Mapping[str, Any], ...] = ()
     pushes: tuple[Mapping[str, Any], ...] = ()
     versions: Mapping[str, Any] = ReadOnlyMapping({})
     command: str = ""

@@ -147,19 +147,29 @@ class Pusher:
             base: id of the body that a push without a body is on; None takes the one that floats.
         """
         self._model = model
-        self._pushes = []
+        self._base = base_of(model) if base is None else base
+        self._pushes: list[tuple[Push, int, Array]] = []
         for push in items_of(pushes, Push, "pushes"):
-            body = base_of(model) if base is None else base
-            if push.body is not None:
-                body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)
-            if body < 0:
-                names = ", ".join(model.body(b).name for b in range(1, model.nbody))
-                raise InvalidInput(
-                    f"a push names the body '{push.body}'; the robot has {names}.", "pushes"
-                )
-            self._pushes.append((push, body, np.array(push.force, dtype=float)))
+            self.add(push)
         self._applied: Array = np.zeros(model.nv)
         self._none = np.zeros(3)
+
+    @property
+    def pushes(self) -> tuple[Push, ...]:
+        """All that are applied."""
+        return tuple(push for push, _, _ in self._pushes)
+
+    def add(self, push: Push) -> None:
+        """Apply one more push; raises `InvalidInput` for an unknown body."""
+        model, body = self._model, self._base
+        if push.body is not None:
+            body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, push.body)
+        if body < 0:
+            names = ", ".join(model.body(b).name for b in range(1, model.nbody))
+            raise InvalidInput(
+                f"a push names the body '{push.body}'; the robot has {names}.", "pushes"
+            )
+        self._pushes.append((push, body, np.array(push.force, dtype=float)))
 
     def apply(self, t: float, data: mujoco.MjData) -> Array:
         """Add the generalised forces of the pushes at time t (s); return their sum (3,) in N.

@@ -46,7 +46,6 @@ def run_facts(plant: Plant, walker: Walker, **facts: Any) -> RunFacts:
         ground=facts_of(plant.ground),
         blind=walker.blind,
         realism=plain_values(plant.realism) if isinstance(plant, RealWorld) else {},
-        pushes=tuple(asdict(push) for push in plant.pushes),
         gains=asdict(walker.gains),
         versions=package_versions(),
         **facts,
@@ -83,13 +82,13 @@ class WalkRecorder:
         if isinstance(self._sight, EstimatedSight):
             self._recorder.sensed(**self._sight.row())
 
-    def finish(self, fall: tuple[float, str] | None, interrupted: bool, wall_time: float) -> Record:
+    def finish(self, fall: tuple[float, str] | None, interrupted: bool, **facts: Any) -> Record:
         """Return the record so far.
 
         Args:
             fall: time (s) and reason of a fall, or None.
             interrupted: whether the run was stopped before its end.
-            wall_time: time spent on it, s.
+            facts: what else came out: wall_time, retuned.
         """
         time, reason = fall or (None, None)
         return self._recorder.finish(
@@ -97,7 +96,8 @@ class WalkRecorder:
             fall_time=time,
             fall_reason=reason,
             interrupted=interrupted,
-            wall_time=wall_time,
+            pushes=tuple(asdict(push) for push in self._plant.pushes),
+            **facts,
         )
 
 

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
-from preview_walk.arguments import instance_of, items_of, positive_number
+from preview_walk.arguments import instance_of, positive_number
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput, RobotError, about
 from preview_walk.robots.finding.constraints import holding_constraints
@@ -64,14 +64,13 @@ class Scene:
         self.data = instance_of(data, mujoco.MjData, "data")
         if data.model is not model:
             raise InvalidInput("data must be made of the model, got that of another.", "data")
-        self.pushes = tuple(items_of(pushes, Push, "pushes"))
         with about("model"):
             self._find()
         self.q: Array = np.array(robot.posture)
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
-        self._pusher = Pusher(model, self.pushes, robot.blueprint.parts.base)
+        self._pusher = Pusher(model, pushes, robot.blueprint.parts.base)
         self._since = 0.0  # the walk's time less the scene's own
         self._kinematics = robot.pin.createData()
 
@@ -114,6 +113,15 @@ class Scene:
         """Take the state and make the workspace anew."""
         vars(self).update(state)
         self._kinematics = self.robot.pin.createData()
+
+    @property
+    def pushes(self) -> tuple[Push, ...]:
+        """The forces on bodies of the scene, those added under way among them."""
+        return self._pusher.pushes
+
+    def add_push(self, push: Push) -> None:
+        """Push a body beside what was known beforehand; `InvalidInput` for an unknown one."""
+        self._pusher.add(push)
 
     def place(self, q: Array, t: float) -> None:
         """Stand the robot still in configuration q (nq,) at time t (s) of the walk.

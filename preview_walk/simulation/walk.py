@@ -14,13 +14,12 @@ from preview_walk.arguments import (
     instance_of,
 )
 from preview_walk.controller.robot_limits import command_limits
-from preview_walk.errors import InvalidInput, PreviewWalkError
-from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.errors import PreviewWalkError
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.reality.realism import Realism
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.commands import Command, VelocityCommands
+from preview_walk.simulation.commands import VelocityCommands
 from preview_walk.simulation.fall import fall_reason, over_edges
 from preview_walk.simulation.plant import Plant
 from preview_walk.simulation.pushes import Push
@@ -29,6 +28,7 @@ from preview_walk.simulation.recording import WalkRecorder
 from preview_walk.simulation.requests import Requests
 from preview_walk.simulation.seeing import sight_of
 from preview_walk.simulation.standing import plant_of, stand, standing_plan
+from preview_walk.simulation.steering import Steered
 from preview_walk.terrain.ground import Ground
 from preview_walk.threads import one_thread
 from preview_walk.tracking.gains import TrackingGains
@@ -44,15 +44,14 @@ Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
 
 _ROUNDING = 1e-9
-_ATTRIBUTES = ("robot", "plant", "walker", "limits", "plan")
+_ATTRIBUTES = ("robot", "plant", "walker", "limits", "plan", "gains")
 
 
-class Walk:
+class Walk(Steered):
     """A running walk; `simulate` and `simulate_commands` are the short ways.
 
-    Assign `plan`, or call `command` or `schedule`, at any moment and from any thread: what comes
-    while a tick is under way is taken at the next one. A walk pickles and copies; the copy goes on
-    bit for bit as the original does.
+    What may be asked of it under way, by any thread, stands at `Steered`. A walk pickles and
+    copies; the copy goes on bit for bit as the original does.
 
     Attributes:
         robot, plant: the robot that walks, and what is sensed and driven.
@@ -130,7 +129,7 @@ class Walk:
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = function_of(on_tick, "on_tick")
-        self._requests = Requests()
+        self._requests, self._retuned = Requests(), []
         self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
         self._fall: tuple[float, str] | None = None
         self._recorder = WalkRecorder(
@@ -165,23 +164,19 @@ class Walk:
         return self._start + self._tick * self._dt
 
     @property
-    def plan(self) -> FootstepPlan:
-        """The footsteps walked by; assign others at any time, in any form that `as_plan` reads.
-
-        They must begin where the feet are and be in reach of the legs: else `InvalidInput` is
-        raised, and the old plan goes on.
-        """
-        return self.walker.plan
-
-    @plan.setter
-    def plan(self, plan: PlanLike) -> None:
-        new = as_plan(plan)
-        self._take(lambda: self.walker.change(new, self.time))
-
-    @property
     def fallen(self) -> bool:
         """Whether the robot has fallen or its controller has stopped."""
         return self._fall is not None
+
+    @property
+    def fall_reason(self) -> str:
+        """Why the robot fell, in words; "" while it has not."""
+        return "" if self._fall is None else self._fall[1]
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run was ended by Ctrl-C or `interrupt`."""
+        return self._interrupted
 
     @property
     def finished(self) -> bool:
@@ -192,54 +187,6 @@ class Walk:
     def _end(self) -> float:
         """Time (s) at which a run ends of its own, as far as is known now."""
         return max(self.plan.end, self._commands.end) + STAND_AFTER
-
-    def command(self, vx: float, vy: float, wz: float) -> None:
-        """Walk at this velocity from now on, until another command; zeros stop the walk.
-
-        It is scaled down to what the robot's legs can do. The plan of every instant ends in a
-        stand.
-
-        Args:
-            vx: forward, m/s, in the frame of the walking robot; so are the others.
-            vy: to the left, m/s.
-            wz: yaw rate to the left, rad/s.
-
-        Raises:
-            InvalidInput: a number is not finite, or the robot has fallen.
-        """
-        vx, vy = finite_number(vx, "vx", "m/s"), finite_number(vy, "vy", "m/s")
-        wz = finite_number(wz, "wz", "rad/s")
-
-        def give() -> None:
-            self._commands.give(self.time, (vx, vy, wz))
-            self._obey()
-
-        self._take(give)
-
-    def schedule(self, commands: Sequence[tuple[Command, float]]) -> None:
-        """Give these commands one after the other from now on, each for its duration; then stop.
-
-        Args:
-            commands: pairs of a command (vx, vy, wz), as for `command`, and its duration (s).
-
-        Raises:
-            InvalidInput: a number is not finite, a duration is not > 0, or the robot has fallen.
-        """
-        self._take(lambda: self._commands.schedule(self.time, commands))
-
-    def _take(self, request: Callable[[], None]) -> None:
-        """Do what is asked, now or at the next tick, unless the robot has fallen."""
-        if self._fall is not None:
-            raise InvalidInput(
-                f"the robot fell at {self._fall[0]:.2f} s: {self._fall[1]}; make another walk."
-            )
-        self._requests.do(request)
-
-    def _obey(self) -> None:
-        """Walk by the plan that the commands ask for now."""
-        plan = self._commands.plan(self.time, self.plan)
-        if plan is not None:
-            self.walker.follow(self.walker.laid(plan))
 
     def run(self, until: float | None = None, progress: Progress | None = None) -> Walk:
         """Go on to a time, or until the robot has stood for a while after the plan.
@@ -267,7 +214,7 @@ class Walk:
                     if progress is not None and self._tick % 25 == 0:
                         progress(self.time, end)
         except KeyboardInterrupt:
-            self._interrupted = True
+            self.interrupt()
         return self
 
     def tick(self) -> None:
@@ -295,6 +242,12 @@ class Walk:
             self._tick += 1
             self._wall += perf_counter() - start
 
+    def interrupt(self) -> None:
+        """End the run here for good, as Ctrl-C does; the record says so."""
+        self._interrupted = True
+
     def record(self) -> Record:
         """Return the record of the run so far."""
-        return self._recorder.finish(self._fall, self._interrupted, self._wall)
+        return self._recorder.finish(
+            self._fall, self._interrupted, wall_time=self._wall, retuned=tuple(self._retuned)
+        )

@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from preview_walk.arguments import instance_of, items_of, number_within
+from preview_walk.arguments import instance_of, number_within
 from preview_walk.robots.building.assemble import sole_name
 from preview_walk.robots.building.contact_sensor import WrenchSensor
 from preview_walk.robots.robot import Robot
@@ -82,8 +82,7 @@ class World:
         self.v: Array = np.zeros(robot.pin.nv)
         self.wrench: dict[Foot, Array] = {foot: np.zeros(6) for foot in FEET}
         self.push: Array = np.zeros(3)
-        self.pushes = tuple(items_of(pushes, Push, "pushes"))
-        self._pusher = Pusher(self.model, self.pushes)
+        self._pusher = Pusher(self.model, pushes)
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]
         self._motor_joint = self.model.jnt_dofadr[joints] - 6
@@ -104,6 +103,15 @@ class World:
         """Take the state and look at it anew."""
         vars(self).update(state)
         self._look_at_soles()
+
+    @property
+    def pushes(self) -> tuple[Push, ...]:
+        """The forces on the robot's bodies, those added under way among them."""
+        return self._pusher.pushes
+
+    def add_push(self, push: Push) -> None:
+        """Push a body beside what was known beforehand; `InvalidInput` for an unknown one."""
+        self._pusher.add(push)
 
     def place(self, q: Array, t: float) -> None:
         """Stand the robot still in configuration q (nq,) at time t (s): only before the run."""

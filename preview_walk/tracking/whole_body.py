@@ -88,12 +88,24 @@ class WholeBodyController:
             InvalidInput: there is no such solver.
         """
         self.robot = instance_of(robot, Robot, "robot")
-        self.gains = instance_of(gains, TrackingGains, "gains")
         self.friction, self._edge = positive_number(friction, "friction"), edge
         if not isinstance(solver, str) or len(solver) > 80:
             raise InvalidInput(f"solver must be a short name, got {shown(solver)}.", "solver")
         self.backend: Backend = make_backend(solver)
         self.dynamics = Dynamics(robot)
+        self._make_tasks(instance_of(gains, TrackingGains, "gains"))
+        self.settle: dict[Foot, Array] = {}
+        self.times = TickTimes()
+        self.solution: Solution | None = None
+        self.failure: QPFailure | None = None
+        self._fallback = Fallback()
+        self._gravity = -float(robot.pin.gravity.linear[2])
+        self._problems: dict[tuple[Foot, ...], TickProblem] = {}
+        self._contacts: tuple[Foot, ...] = ()
+
+    def _make_tasks(self, gains: TrackingGains) -> None:
+        """Make the tasks of every walk, with these weights and gains."""
+        robot, self.gains = self.robot, gains
         self.com = CoMTask(gains.com_weight)
         self.foot_tasks = {
             foot: FootTask(foot, gains.foot_weight, gains.foot, robot.legs[foot].unplaced)
@@ -105,14 +117,17 @@ class WholeBodyController:
         if gains.momentum_weight > 0.0:
             self.tasks.append(self.momentum)
         self.posture = _posture_task(robot, gains)
-        self.settle: dict[Foot, Array] = {}
-        self.times = TickTimes()
-        self.solution: Solution | None = None
-        self.failure: QPFailure | None = None
-        self._fallback = Fallback()
-        self._gravity = -float(robot.pin.gravity.linear[2])
-        self._problems: dict[tuple[Foot, ...], TickProblem] = {}
-        self._contacts: tuple[Foot, ...] = ()
+
+    def tune(self, gains: TrackingGains) -> None:
+        """Take other weights and gains, from the next tick on; tasks of one's own stay.
+
+        The tasks are made anew: their references are to be set before `torques`.
+        """
+        old = (self.com, self.torso, self.momentum)
+        own = [task for task in self.tasks if task not in old]
+        self._make_tasks(gains)
+        self.tasks += own
+        self._problems.clear()
 
     def __repr__(self) -> str:
         return f"WholeBodyController({self.robot.name}, {len(self.tasks)} tasks, posture, feet)"

@@ -35,9 +35,12 @@ def run_in_viewer(walk: Walk, progress: Progress | None = None) -> None:
         window.cam.trackbodyid = body
         window.cam.distance = 3.2 * walk.robot.com_height
         begun, first = perf_counter(), walk.time
-        while window.is_running() and not walk.finished:
-            walk.run(until=walk.time + REFRESH, progress=progress)
-            window.sync()
-            ahead = (walk.time - first) - (perf_counter() - begun)
-            if ahead > 0.0:
-                sleep(ahead)
+        try:
+            while window.is_running() and not walk.finished:
+                walk.run(until=walk.time + REFRESH, progress=progress)
+                window.sync()
+                ahead = (walk.time - first) - (perf_counter() - begun)
+                if ahead > 0.0:
+                    sleep(ahead)
+        except KeyboardInterrupt:  # between two stretches of the walk, which is kept
+            walk.interrupt()

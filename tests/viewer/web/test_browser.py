@@ -1,0 +1,119 @@
+"""The pages in a real Chromium: they load, move, obey, and are silent."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from chromium import CHROMIUM, DRIVER, NEEDED, asked_for, browser, complaints
+
+import preview_walk as pw
+from preview_walk.robots.robot import Robot
+from preview_walk.viewer.web.live import run_live
+from preview_walk.viewer.web.server import page
+
+pytestmark = [
+    pytest.mark.skipif(not (CHROMIUM and DRIVER), reason=NEEDED),
+    pytest.mark.xdist_group("chromium"),
+]
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    with browser(tmp_path_factory.mktemp("profile")) as driver:
+        yield driver
+
+
+def wait_for(what: Callable[[], Any]) -> Any:
+    """Return the first value that is true; software draws slowly, so there is a minute for it."""
+    for _ in range(600):
+        value = what()
+        if value:
+            return value
+        time.sleep(0.1)
+    raise AssertionError("it never came")
+
+
+def picture(driver: Any) -> Any:
+    """Return the middle of the page as pixels."""
+    import io
+
+    import imageio.v3 as imageio
+
+    pixels: Any = imageio.imread(io.BytesIO(driver.get_screenshot_as_png()))[..., :3]
+    return pixels[150:-60, 450:850].astype(int)
+
+
+def click(driver: Any, label: str) -> None:
+    """Click on a button of the page."""
+    path = f"//button[.//text()[normalize-space()='{label}']]"
+    wait_for(lambda: driver.find_elements("xpath", path))[0].click()
+
+
+def type_into(driver: Any, label: str, text: str) -> None:
+    """Type a number beside a slider, as a visitor does."""
+    path = f"//label[normalize-space()='{label}']/following::input[@type='text'][1]"
+    field = wait_for(lambda: driver.find_elements("xpath", path))[0]
+    field.send_keys("\ue009a\ue000" + text + "\ue007")  # all of it is replaced
+
+
+def test_a_live_walk_is_steered_pushed_paused_and_ended(chromium: Any, talos: Robot) -> None:
+    walk = pw.Walk.standing(talos)
+    with page() as server:
+        loop = threading.Thread(target=run_live, args=(walk, server))
+        loop.start()
+        try:
+            chromium.get(f"http://127.0.0.1:{server.get_port()}")
+            wait_for(lambda: walk.time > 0.3)
+            wait_for(lambda: np.ptp(picture(chromium)) > 150)
+            before = picture(chromium)
+            type_into(chromium, "forward [m/s]", "0.4")
+            wait_for(lambda: walk.commanded == (0.4, 0.0, 0.0))
+            wait_for(lambda: walk.plant.q[0] > 0.3)
+            assert (np.abs(picture(chromium) - before).sum(axis=-1) > 60).mean() > 0.01
+            click(chromium, "Push")
+            wait_for(lambda: np.abs(walk.plant.push).max() > 70.0 or walk.plant.pushes)
+            click(chromium, "Pause")
+            wait_for(lambda: chromium.find_elements("xpath", "//button[contains(., 'Play')]"))
+            paused = walk.time
+            click(chromium, "One tick")
+            wait_for(lambda: walk.time > paused)
+            assert walk.time == pytest.approx(paused + 0.002)
+            assert complaints(chromium) == []
+            here = f"://127.0.0.1:{server.get_port()}"
+            assert {a.split("://")[0] for a in asked_for(chromium) if here in a} >= {"http", "ws"}
+            assert not [address for address in asked_for(chromium) if here not in address]
+            click(chromium, "End the walk")
+        finally:
+            walk.interrupt()
+            loop.join(60)
+            chromium.get("about:blank")
+    record = walk.record()
+    assert np.abs(record.push).max() == pytest.approx(75.0, abs=0.5)
+    assert record.run.pushes[0]["duration"] == 0.2
+    assert not record.run.fell
+
+
+def test_the_exported_file_plays_without_server_and_network(
+    chromium: Any, talos: Robot, tmp_path: Path
+) -> None:
+    walk = pw.Walk.standing(talos, ground=pw.stairs(0.1, 0.3, 2))
+    walk.command(0.4, 0.0, 0.0)
+    path = pw.export_html(walk.run(until=2.0).record(), tmp_path / "walk.html", talos)
+    complaints(chromium), asked_for(chromium)
+    chromium.execute_cdp_cmd("Network.enable", {})
+    chromium.execute_cdp_cmd(
+        "Network.emulateNetworkConditions",
+        {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0},
+    )
+    chromium.get(path.as_uri())
+    wait_for(lambda: np.ptp(picture(chromium)) > 150)
+    first = picture(chromium)
+    wait_for(lambda: (np.abs(picture(chromium) - first).sum(axis=-1) > 60).mean() > 0.01)
+    assert complaints(chromium) == []
+    assert asked_for(chromium) == {path.as_uri()}
