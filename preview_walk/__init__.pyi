@@ -40,6 +40,8 @@ from .geometry.quintic import Quintic as Quintic
 from .footsteps.footstep import Footstep as Footstep
 from .footsteps.plan import FootstepPlan as FootstepPlan
 from .footsteps.reading import as_plan as as_plan
+from .footsteps.files import read_footsteps as read_footsteps
+from .footsteps.files import write_footsteps as write_footsteps
 from .footsteps.planner import FootstepPlanner as FootstepPlanner
 from .footsteps.stride import Stride as Stride
 from .footsteps.gaits import arc as arc

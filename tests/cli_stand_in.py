@@ -12,7 +12,7 @@ from preview_walk.analysis.plots import PLOTS
 from preview_walk.cli import main as cli
 from preview_walk.record.record import Record
 
-OUTPUTS = {"record.npz", "summary.json", "walk.png", *(f"{name}.png" for name in PLOTS)}
+OUTPUTS = {"record.npz", "summary.json", "run.toml", "walk.png", *(f"{name}.png" for name in PLOTS)}
 
 
 class Simulation:

@@ -34,6 +34,9 @@ OPTION_OF = {
     "com_generator": "--com-generator",
     "realism": "--realism",
     "port": "--port",
+    "footsteps": "--footsteps",
+    "swing_height": "--swing-height",
+    "com_height": "--com-height",
 }
 """The option that sets an argument of the library; `InvalidInput.argument` names the argument."""
 

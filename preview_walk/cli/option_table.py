@@ -95,7 +95,14 @@ _STEPPING = (
     ),
 )
 
-STEPPING = tuple(option.name for option in _STEPPING)
+_FOOTSTEPS = Option(
+    "--footsteps",
+    "FILE",
+    text("the name of a CSV or JSON file"),
+    "walk along the footsteps of a file instead (columns foot, x, y, yaw_deg, lift, time)",
+)
+
+STEPPING = (*(option.name for option in _STEPPING), _FOOTSTEPS.name)
 """Options of a walk by footsteps, which a walk by velocity chooses itself."""
 
 OPTIONS = (
@@ -107,6 +114,7 @@ OPTIONS = (
         DEFAULT_ROBOT,
     ),
     *_STEPPING,
+    _FOOTSTEPS,
     Option(
         "--velocity",
         "VX,VY,YAWRATE_DEG",
@@ -190,6 +198,24 @@ OPTIONS = (
         "preview control (default), Wieber's ZMP MPC or the plan's DCM leads the CoM",
     ),
     Option(
+        "--swing-height",
+        "M",
+        number("a height in metres from 0 to 1", lambda x: 0.0 <= x <= 1.0),
+        "height of the swinging foot (default: by the leg)",
+    ),
+    Option(
+        "--com-height",
+        "M",
+        number("a height in metres above 0 and up to 5", lambda x: 0.0 < x <= 5.0),
+        "height of the CoM above the soles (default: the walking posture's)",
+    ),
+    Option(
+        "--config",
+        "FILE",
+        text("the name of a TOML file"),
+        "options from a file, as the run.toml beside a walk's results; those typed come on top",
+    ),
+    Option(
         "--out",
         "DIR",
         text("the name of a folder"),
@@ -219,6 +245,8 @@ FLAGS = {
     "--video": "write walk.mp4 too; needs no screen",
     "--view": "show the walk live; needs a screen; the mouse can push the robot",
     "--web": "show the walk live in the browser, to be steered and pushed; writes walk.html too",
+    "--json": "print the figures as JSON in place of the table",
+    "--quiet": "print nothing but errors",
     "--list-robots": "print the robots of the catalogue and end",
 }
 """The options that take none."""

@@ -9,6 +9,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
+from preview_walk.cli.config import config_text, with_config
 from preview_walk.cli.option_table import (
     DEFAULT_DOUBLE_SUPPORT_RATIO,
     DEFAULT_PORT,
@@ -44,6 +45,10 @@ class Options:
         out: the folder of results.
         video, view, web, no_plots: what to make of the walk.
         port: of the page that `web` asks for.
+        footsteps: file of footsteps to walk along; None: those of the options.
+        swing_height, com_height: m; None: the robot's own.
+        json, quiet: what is printed.
+        config: the options given, as the text of a TOML file that gives them again.
         list_robots: print the catalogue, do not walk.
         inspect: the model to report on, not to walk.
     """
@@ -75,6 +80,12 @@ class Options:
     realism: str | None = None
     web: bool = False
     port: int = DEFAULT_PORT
+    footsteps: str | None = None
+    swing_height: float | None = None
+    com_height: float | None = None
+    json: bool = False
+    quiet: bool = False
+    config: str = ""
 
 
 def parse(argv: Sequence[str] | None = None) -> Options:
@@ -84,7 +95,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     parser = make_parser()
-    found = parser.read(arguments)
+    found = parser.read(with_config(arguments, parser))
     if len(found.velocity) != len(found.duration):
         parser.error(
             "--velocity: must come with one --duration each, got "
@@ -95,6 +106,8 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         parser.error(
             f"{given[0]}: must be left out beside --velocity, which chooses the steps by itself."
         )
+    if found.footsteps is not None and given != ["--footsteps"]:
+        parser.error(f"{given[0]}: must be left out beside --footsteps, which has all of them.")
     x, y, yaw = found.start
     return Options(
         robot=found.robot,
@@ -127,6 +140,12 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         realism=found.realism,
         web=found.web,
         port=found.port,
+        footsteps=found.footsteps,
+        swing_height=found.swing_height,
+        com_height=found.com_height,
+        json=found.json,
+        quiet=found.quiet,
+        config=config_text(vars(found)),
     )
 
 

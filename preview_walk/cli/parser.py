@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from difflib import get_close_matches
 from typing import NoReturn
 
 import preview_walk
@@ -64,8 +65,10 @@ class Parser(argparse.ArgumentParser):
             message = f"{name}: must be {reader.__doc__}, got nothing."
         elif unknown:
             names = [option.name for option in OPTIONS]
-            known = ", ".join(sorted([*names, *FLAGS, "--help", "--version"]))
-            message = f"{unknown.group(1)}: no such option; allowed are {known}."
+            known = sorted([*names, *FLAGS, "--help", "--version"])
+            close = get_close_matches(unknown.group(1).split("=")[0], known, 1)
+            hint = f"did you mean {close[0]}? " if close else ""
+            message = f"{unknown.group(1)}: no such option; {hint}allowed are {', '.join(known)}."
         complain(message.removeprefix("argument "))
         raise SystemExit(2)
 

@@ -11,14 +11,20 @@ FORM = "{desc}: {percentage:3.0f}%|{bar}| {n:.1f}/{total:.1f} s [{elapsed}<{rema
 
 
 @contextmanager
-def progress_bar() -> Iterator[Callable[[float, float], None]]:
-    """Show a bar on stderr; gives the function to call with the simulated time and its end, s."""
+def progress_bar(*, shown: bool = True) -> Iterator[Callable[[float, float], None]]:
+    """Show a bar on stderr; gives the function to call with the simulated time and its end, s.
+
+    Args:
+        shown: whether there is a bar at all.
+    """
     from tqdm import tqdm
 
     # None before the walk begins: bad input is to get its sentence and nothing else.
     bars: list[Any] = []
 
     def progress(time: float, end: float) -> None:
+        if not shown:
+            return
         if not bars:
             interval = 0.1 if sys.stderr.isatty() else 5.0
             bars.append(tqdm(desc="walking", total=end, bar_format=FORM, mininterval=interval))

@@ -15,7 +15,7 @@ from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 
 RECORD, SUMMARY, OVERVIEW = "record.npz", "summary.json", "walk.png"
-FILM, PAGE = "walk.mp4", "walk.html"
+FILM, PAGE, CONFIG = "walk.mp4", "walk.html", "run.toml"
 Writers = Mapping[str, Callable[[Path], object]]
 """What writes each file, by its name."""
 
@@ -24,7 +24,7 @@ def result_names() -> tuple[str, ...]:
     """Return the names of all files that a run may write, most precious first."""
     from preview_walk.analysis.plots import PLOTS
 
-    return (RECORD, SUMMARY, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM, PAGE)
+    return (RECORD, SUMMARY, CONFIG, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM, PAGE)
 
 
 def make_folder(folder: Path, names: Iterable[str]) -> None:

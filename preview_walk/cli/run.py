@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import preview_walk as pw
@@ -13,10 +15,10 @@ from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import PUSH_TIME
 from preview_walk.cli.options import Options
 from preview_walk.cli.progress import progress_bar
-from preview_walk.cli.results import make_folder, result_names, write_results, writers_of
+from preview_walk.cli.results import CONFIG, make_folder, result_names, write_results, writers_of
 from preview_walk.cli.streams import complain, say
 from preview_walk.errors import InvalidInput
-from preview_walk.files import claimed
+from preview_walk.files import claimed, whole_file
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
@@ -44,7 +46,7 @@ def run(options: Options, command: str, interruption: Interruption) -> Record:
     with naming("--robot"):
         robot = pw.load_robot(options.robot)
     with naming("--step-length"):
-        plan = None if options.commands else _plan(options, robot)
+        plan = _plan(options, robot)
     end = sum(duration for _, duration in options.commands) if plan is None else plan.end
     with naming("--push"):
         pushes = _pushes(options, end)
@@ -63,7 +65,7 @@ def _write(record: Record, robot: Robot, options: Options, interruption: Interru
     if stopped:
         span = f"{len(record) * record.dt:.2f} s"
         say(f"Stopped by {interruption.name} after {span}; this is the walk so far.")
-    say(str(record.summary()))
+    _show(record, options)
     figures, pictures = writers_of(
         record,
         robot,
@@ -71,13 +73,28 @@ def _write(record: Record, robot: Robot, options: Options, interruption: Interru
         film=options.video and not stopped,
         page=options.web and not options.no_plots,
     )
+    figures = {**figures, CONFIG: partial(_keep_config, options.config)}
     written, failure = write_results(options.out, figures, pictures, interruption)
-    say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
+    if not options.quiet and not options.json:
+        say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
     if failure is not None:
         raise failure
     if len(written) < len(figures) + len(pictures):
         complain(f"stopped by {interruption.name} while writing; the other pictures are left out.")
     return record
+
+
+def _show(record: Record, options: Options) -> None:
+    """Print the figures of a walk as they are asked for."""
+    if options.json:
+        say(json.dumps(record.summary().as_json(), indent=2))
+    elif not options.quiet:
+        say(str(record.summary()))
+
+
+def _keep_config(text: str, path: Path) -> None:
+    with whole_file(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def _walk(
@@ -94,8 +111,10 @@ def _walk(
         "control_hz": options.control_hz,
         "solver": options.solver,
         "com_generator": options.com_generator,
+        "swing_height": options.swing_height,
+        "com_height": options.com_height,
     }
-    with naming("--robot"), progress_bar() as show:
+    with naming("--robot"), progress_bar(shown=not options.quiet) as show:
 
         def progress(time: float, end: float) -> None:
             interruption.hold()
@@ -120,8 +139,12 @@ def _walk(
         return pw.simulate(robot, plan, **settings)
 
 
-def _plan(options: Options, robot: Robot) -> FootstepPlan:
-    """Return the footsteps of a straight walk or an arc."""
+def _plan(options: Options, robot: Robot) -> FootstepPlan | None:
+    """Return the footsteps of a file, of a straight walk or an arc; None for a walk by commands."""
+    if options.commands:
+        return None
+    if options.footsteps is not None:
+        return pw.read_footsteps(options.footsteps)
     planner = pw.FootstepPlanner(
         step_length=options.step_length,
         step_width=robot.step_width,

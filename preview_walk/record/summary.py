@@ -93,6 +93,16 @@ class Summary:
         """Return the table as a notebook shows it."""
         return html_table(repr(self), rows_of(self))
 
+    def as_json(self) -> dict[str, Any]:
+        """Return the figures as JSON has them: None where not finite, sensors' if there are any."""
+        figures = {
+            name: value
+            for name, value in asdict(self).items()
+            if name not in _SENSED or self.velocity_error_rms is not None
+        }
+        finite: dict[str, Any] = _finite(figures)
+        return finite
+
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write `summary.json`, whole or not at all; return its path.
 
@@ -102,12 +112,7 @@ class Summary:
         Raises:
             OutputError: the file cannot be written.
         """
-        figures = {
-            name: value
-            for name, value in asdict(self).items()
-            if name not in _SENSED or self.velocity_error_rms is not None
-        }
-        text = json.dumps(_finite(figures), indent=2, allow_nan=False) + "\n"
+        text = json.dumps(self.as_json(), indent=2, allow_nan=False) + "\n"
         with whole_file(path) as part:
             part.write_text(text, encoding="utf-8")
         return Path(path)

@@ -27,7 +27,7 @@ def loaded_robot(robot: str) -> Robot:
 
 
 def walk_case(
-    robot: str = "talos",
+    robot: str,
     velocity: Sequence[float] = (0.3, 0.0, 0.0),
     duration: float = 8.0,
     *,

@@ -52,7 +52,8 @@ def test_every_option_is_read() -> None:
         "--control-hz 1000 --solver daqp --com-generator dcm --out there --no-plots --video "
         "--view --list-robots --inspect my.urdf"
     )
-    assert parse(line.split()) == cli_options.Options(
+    options = parse(line.split())
+    assert options == cli_options.Options(
         robot="my.xml",
         steps=7,
         step_length=-0.1,
@@ -76,7 +77,12 @@ def test_every_option_is_read() -> None:
         list_robots=True,
         inspect="my.urdf",
         no_plots=True,
+        config=options.config,
     )
+    more = parse(["--footsteps", "a.csv", "--swing-height", "0.1", "--com-height", "0.8", "--json", "--quiet"])
+    assert (more.footsteps, more.swing_height, more.com_height) == ("a.csv", 0.1, 0.8)
+    assert more.json
+    assert more.quiet
 
 
 PIECES = st.one_of(
@@ -217,7 +223,9 @@ def test_unknown_options_are_named_beside_the_known(
         cli.main(arguments.split())
     assert stop.value.code == 2
     text = complaint(capsys)
-    assert text.startswith(f"preview-walk: {arguments.split()[0]}: no such option; allowed are ")
+    guess = "did you mean --steps? " if arguments.startswith("--") else ""
+    name = arguments.split()[0]
+    assert text.startswith(f"preview-walk: {name}: no such option; {guess}allowed are ")
     assert "--steps" in text
 
 

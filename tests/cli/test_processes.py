@@ -123,7 +123,7 @@ def test_a_signal_ends_the_walk_and_the_walk_so_far_is_written(
     assert process.returncode == code
     assert output.startswith(f"Stopped by {name} after ".encode())
     assert Record.load(tmp_path / "walk/record.npz").run.interrupted
-    assert len(files(tmp_path / "walk")) == 9
+    assert len(files(tmp_path / "walk")) == 10
 
 
 def test_signals_while_the_record_is_written_do_not_lose_it(start: Start, tmp_path: Path) -> None:
@@ -134,8 +134,8 @@ def test_signals_while_the_record_is_written_do_not_lose_it(start: Start, tmp_pa
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert files(tmp_path / "walk") == {"record.npz", "summary.json"}
-    assert output.endswith(b"Written to walk: record.npz, summary.json\n")
+    assert files(tmp_path / "walk") == {"record.npz", "summary.json", "run.toml"}
+    assert output.endswith(b"Written to walk: record.npz, summary.json, run.toml\n")
     assert b"stopped by Ctrl-C while writing" in errors
     assert Record.load(tmp_path / "walk/record.npz").run.interrupted
 
@@ -149,7 +149,7 @@ def test_a_signal_while_pictures_are_drawn_keeps_what_is_ready(
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)
     assert process.returncode == 143
-    assert files(tmp_path / "walk") == {"record.npz", "summary.json", "walk.png"}
+    assert files(tmp_path / "walk") == {"record.npz", "summary.json", "run.toml", "walk.png"}
     assert not Record.load(tmp_path / "walk/record.npz").run.interrupted
 
 
@@ -176,7 +176,7 @@ def test_what_a_killed_run_leaves_the_next_removes(start: Start, tmp_path: Path)
     process.kill()
     process.communicate(timeout=60)
     assert start("--no-plots").wait(60) == 0
-    assert files(walk) == {"record.npz", "summary.json", own.name}
+    assert files(walk) == {"record.npz", "summary.json", "run.toml", own.name}
 
 
 def test_a_name_that_is_not_utf_8_is_a_name(start: Start, tmp_path: Path) -> None:
@@ -184,7 +184,7 @@ def test_a_name_that_is_not_utf_8_is_a_name(start: Start, tmp_path: Path) -> Non
     output, errors = process.communicate(timeout=60)
     assert process.returncode == 0, errors
     folder = tmp_path / os.fsdecode(b"w\xff\xe4lk")
-    assert files(folder) == {"record.npz", "summary.json"}
+    assert files(folder) == {"record.npz", "summary.json", "run.toml"}
     assert b"\\udcff" in output
     assert os.fsdecode(b"w\xff\xe4lk") in Record.load(folder / "record.npz").run.command
 
@@ -217,7 +217,7 @@ def test_a_walk_is_written_whatever_becomes_of_its_streams(
     line = f"$WALK --robot humanoid-walker --steps 1 --step-time 0.6 --no-plots {streams}"
     done = shell(line, tmp_path)
     assert done.returncode == code, done.stderr
-    assert files(tmp_path / "walk") == {"record.npz", "summary.json"}
+    assert files(tmp_path / "walk") == {"record.npz", "summary.json", "run.toml"}
     assert len(Record.load(tmp_path / "walk/record.npz")) > 1000
 
 
@@ -255,4 +255,4 @@ def test_two_runs_in_one_folder(start: Start, tmp_path: Path) -> None:
     first.kill()
     first.communicate(timeout=60)
     assert start("--no-plots").wait(60) == 0
-    assert files(tmp_path / "walk") == {"record.npz", "summary.json"}
+    assert files(tmp_path / "walk") == {"record.npz", "summary.json", "run.toml"}

@@ -110,7 +110,7 @@ def test_a_name_taken_by_a_folder_is_told_before_the_walk(
 def test_no_plots_leaves_record_and_figures_alone(simulation: Simulation, out: Path) -> None:
     assert run(out) == 0
     assert run(out, "--no-plots") == 0
-    assert {path.name for path in out.iterdir()} == {"record.npz", "summary.json"}
+    assert {path.name for path in out.iterdir()} == {"record.npz", "summary.json", "run.toml"}
 
 
 def test_an_empty_record_has_no_pictures(
@@ -121,4 +121,4 @@ def test_an_empty_record_has_no_pictures(
     empty = dataclasses.replace(record, **none)
     monkeypatch.setattr(pw, "simulate", lambda *_, **__: empty)
     assert run(out) == 0
-    assert {path.name for path in out.iterdir()} == {"record.npz", "summary.json"}
+    assert {path.name for path in out.iterdir()} == {"record.npz", "summary.json", "run.toml"}

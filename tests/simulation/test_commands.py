@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
-from pathlib import Path
-from types import ModuleType
 
+import command_study
 import numpy as np
 import pytest
 
@@ -18,18 +16,6 @@ from preview_walk.geometry.poses import pose_at
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import FORGET, VelocityCommands
-
-
-@pytest.fixture(scope="module")
-def study() -> ModuleType:
-    """Return the benchmark of which these tests are a sample: 20 sequences and long walks."""
-    path = Path(__file__).parents[2] / "benchmarks" / "command_study.py"
-    spec = importlib.util.spec_from_file_location("command_study", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def assert_on_plan(record: Record) -> None:
@@ -50,10 +36,10 @@ def mean_velocity(record: Record, start: float, end: float) -> float:
 
 
 @pytest.mark.parametrize("seed", [4, 16])
-def test_obeys_random_commands_at_random_times(talos: Robot, study: ModuleType, seed: int) -> None:
+def test_obeys_random_commands_at_random_times(talos: Robot, seed: int) -> None:
     """Twenty seconds of them; and it walks where pure planning, without a robot, says."""
-    table = study.random_commands(seed)
-    record = study.obey(talos, table)
+    table = command_study.random_commands(seed)
+    record = command_study.obey(talos, table)
     assert_on_plan(record)
     walk = pw.Walk.standing(talos)
     plan, limits = walk.plan, walk.limits

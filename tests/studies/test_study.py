@@ -64,7 +64,8 @@ def test_a_study_that_is_stopped_goes_on_and_nothing_is_done_twice(
         assert time.monotonic() < until + 30.0
         time.sleep(0.05)
     done = rows.read_bytes().count(b"\n")
-    assert 5 <= done < 36
+    assert 5 <= done <= 10
+    (tmp_path / "go").touch()
     resumed = run(study, tmp_path / "out", resume=True)
     calls = (tmp_path / "calls").read_text().splitlines()
     # What was under way when it stopped is done again: two workers' cases, no row's.
@@ -113,6 +114,7 @@ def test_a_worker_killed_from_outside_costs_no_case(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_is_one_sentence_and_the_study_goes_on_after_it(tmp_path: Path) -> None:
+    (tmp_path / "go").touch()
     study = pw.Study({"x": list(range(20)), "folder": str(tmp_path)}, slow)
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

@@ -23,7 +23,9 @@ def test_a_pushed_walk_is_that_of_the_same_settings_in_full(talos: pw.Robot) -> 
 
 
 def test_the_record_of_a_case_that_failed_is_kept(tmp_path: Path) -> None:
-    study = pw.Study({"impulse": [0.0, 400.0], "duration": 1.0, "push_at": 0.5}, keep="failed")
+    study = pw.Study(
+        {"robot": "talos", "impulse": [0.0, 400.0], "duration": 1.0, "push_at": 0.5}, keep="failed"
+    )
     results = study.run(tmp_path, jobs=1, progress=False)
     assert [*results.table["success"]] == [True, False]
     (path,) = (tmp_path / "records").iterdir()
