@@ -53,8 +53,9 @@ def config_text(found: Mapping[str, Any]) -> str:
         value = found[_key(option.name)]
         if option.name in NOT_KEPT or value is None or value == [] or value == option.default:
             continue
-        shown = [_text(item) for item in value] if option.repeated else _text(value)
-        shown = value if isinstance(value, int | float) else shown
+        shown: Any = value if isinstance(value, int | float) else _text(value)
+        if option.repeated:
+            shown = [_text(item) for item in value]
         lines.append(f"{option.name[2:]} = {json.dumps(shown)}")
     flags = [name for name in FLAGS if found[_key(name)] and name not in NOT_KEPT]
     lines += [f"{name[2:]} = true" for name in flags]

@@ -8,10 +8,10 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from preview_walk.cli import study
 from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.options import Options, parse
 from preview_walk.cli.streams import complain, safe_streams, say
+from preview_walk.cli.words import WORDS
 from preview_walk.errors import PreviewWalkError
 from preview_walk.files import OutputError
 
@@ -38,8 +38,8 @@ def _guarded(argv: Sequence[str] | None, interruption: Interruption) -> int:
     """Do what the options ask for; every error is a sentence and a code."""
     try:
         arguments = list(sys.argv[1:] if argv is None else argv)
-        if arguments[:1] == [study.WORD]:
-            return study.run_study_file(arguments[1:], interruption)
+        if arguments and arguments[0] in WORDS:
+            return WORDS[arguments[0]](arguments[1:], interruption)
         options = parse(arguments)
         command = shlex.join(["preview-walk", *arguments])
         return _do(options, command, interruption)

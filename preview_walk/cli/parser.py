@@ -73,6 +73,17 @@ class Parser(argparse.ArgumentParser):
         raise SystemExit(2)
 
 
+class WordParser(argparse.ArgumentParser):
+    """A parser of what follows a word; it complains in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the sentence; exit with code 2."""
+        word = self.prog.split()[-1]
+        message = message.removeprefix("argument ").removesuffix(".")
+        complain(f"{word}: {message}; '{self.prog} --help' tells what is allowed.")
+        raise SystemExit(2)
+
+
 def join_negative_values(arguments: list[str]) -> list[str]:
     """Write `--start -1,0,0` as `--start=-1,0,0`, which argparse takes for an option otherwise."""
     joined: list[str] = []

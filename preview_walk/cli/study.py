@@ -5,14 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
 
 from preview_walk.cli.interruption import Interruption
-from preview_walk.cli.streams import complain, say
+from preview_walk.cli.parser import WordParser
+from preview_walk.cli.streams import say
 from preview_walk.cli.values import text, whole
-
-WORD = "study"
-"""The first word of a command line that this file reads."""
 
 ALL_ENDED, SOME_DID_NOT = 0, 1
 """Exit codes: every case ended by itself, or some by an error, their time or their worker's end."""
@@ -25,18 +22,10 @@ exit code: 0 every case ended by itself; 1 some did not (an error, the time limi
 ended); 2 bad input; 130, 143 or 129 stopped by Ctrl-C, SIGTERM or SIGHUP (what is done is kept)"""
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        """Print one sentence; exit with code 2."""
-        message = message.removeprefix("argument ").removesuffix(".")
-        complain(f"study: {message}; 'preview-walk study --help' tells what is allowed.")
-        raise SystemExit(2)
-
-
 def make_parser() -> argparse.ArgumentParser:
     """Return the parser of what follows the word."""
-    parser = _Parser(
-        prog=f"preview-walk {WORD}",
+    parser = WordParser(
+        prog="preview-walk study",
         description="Run the cases of a study that a TOML file describes, on all cores or a "
         "cluster; go on where it stopped.",
         epilog=_EPILOG,
