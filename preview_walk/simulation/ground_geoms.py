@@ -19,8 +19,8 @@ from preview_walk.terrain.slabs import Slab, SlabGround
 THICKNESS = 0.5
 """Thickness (m) of the box that stands for a slab, below its face: nothing gets under it."""
 
-COLOUR = (0.76, 0.80, 0.84, 1.0)
-"""Of slabs (r, g, b, a)."""
+COLOUR, SHADE = (0.80, 0.82, 0.84, 1.0), (0.55, 0.60, 0.66, 1.0)
+"""Of slabs (r, g, b, a), in turn, so that one tread is told from the next."""
 
 
 def model_on(robot: Robot, ground: Ground | None, visuals: bool) -> mujoco.MjModel:
@@ -54,7 +54,7 @@ def add_ground(spec: mujoco.MjSpec, ground: Ground) -> None:
     elif isinstance(ground, SlabGround):
         spec.geom("floor").pos[2] = ground.floor
         for number, slab in enumerate(ground.slabs):
-            _add_slab(spec, f"slab_{number}", slab)
+            _add_slab(spec, f"slab_{number}", slab, SHADE if number % 2 else COLOUR)
     elif isinstance(ground, HeightField):
         spec.geom("floor").pos[2] = ground.floor
         _add_field(spec, ground)
@@ -92,7 +92,9 @@ def _add_field(spec: mujoco.MjSpec, field: HeightField) -> None:
     add_studs(spec)
 
 
-def _add_slab(spec: mujoco.MjSpec, name: str, slab: Slab) -> None:
+def _add_slab(
+    spec: mujoco.MjSpec, name: str, slab: Slab, colour: tuple[float, float, float, float]
+) -> None:
     """Add a box whose upper face is the slab."""
     pose = slab.pose
     # The face's own extents: the slab's are those of its picture on the level.
@@ -106,7 +108,7 @@ def _add_slab(spec: mujoco.MjSpec, name: str, slab: Slab) -> None:
         size=(length, width, 0.5 * THICKNESS),
         pos=pose[:3, 3] - 0.5 * THICKNESS * pose[:3, 2],
         quat=quat,
-        rgba=COLOUR,
+        rgba=colour,
         contype=2,
         conaffinity=1,
         condim=3,
