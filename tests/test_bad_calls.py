@@ -19,6 +19,7 @@ from synthetic_walk import walk_record
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
 from preview_walk.files import OutputError
+from preview_walk.viewer.web.server import require_port
 
 ODD: list[Any] = [
     "text", "", "\0", b"bytes", None, 1j, [], [1.0], [1.0, "two", 3.0], [[1.0], [1.0, 2.0]], {},
@@ -66,7 +67,16 @@ SETTINGS: dict[str, Any] = FEW | {
 }  # fmt: skip
 WHOLE = {name: value for name, value in SETTINGS.items() if name != "visuals"}
 
-SLOW = ("run_in_viewer", "plot", "plot_all", "write_picture", "render_video", "frames")
+SLOW = (
+    "run_in_viewer",
+    "show",
+    "export_html",
+    "plot",
+    "plot_all",
+    "write_picture",
+    "render_video",
+    "frames",
+)
 """What is right of these needs a screen or draws for seconds; tests of their own do that."""
 
 Case = tuple[Callable[..., object], dict[str, Any]]
@@ -109,6 +119,14 @@ CALLS: dict[str, Case] = {
     "a scheduled command": (
         lambda **given: STANDING.schedule([(given["command"], given["duration"])]),
         {"command": (0.1, 0.0, 0.0), "duration": 1.0},
+    ),
+    "Walk.push": (
+        lambda **given: STANDING.push(**given),
+        {"force": (1.0, 0.0, 0.0), "duration": 0.1, "body": None},
+    ),
+    "Walk.gains": (
+        lambda gains: setattr(STANDING, "gains", gains),
+        {"gains": pw.TrackingGains()},
     ),
     "Walk.plan": (
         lambda plan: setattr(WALK, "plan", plan),
@@ -163,6 +181,9 @@ CALLS: dict[str, Case] = {
         {"record": RECORD, "robot": ROBOT, "times": (0.0,)},
     ),
     "run_in_viewer": (pw.run_in_viewer, {"walk": None}),
+    "show": (pw.show, {"record_or_walk": None}),
+    "export_html": (pw.export_html, {"record": RECORD, "path": "walk.html", "robot": ROBOT}),
+    "require_port": (require_port, {"port": 0, "host": "127.0.0.1"}),
     "WholeBodyController": (
         pw.WholeBodyController,
         {"robot": ROBOT, "gains": pw.TrackingGains(), "friction": 0.8, "solver": "osqp"},

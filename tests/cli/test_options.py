@@ -35,6 +35,7 @@ def test_defaults() -> None:
     assert (options.turn, options.commands, options.random_pushes) == (0.0, (), None)
     assert (options.physics_hz, options.control_hz, options.solver) == (None, None, None)
     assert (options.list_robots, options.inspect) == (False, None)
+    assert (options.web, options.port) == (False, 8080)
     assert (options.start, options.friction, options.pushes) == ((0.0, 0.0, 0.0), None, ())
     assert (options.seed, options.out, options.video, options.view) == (
         0,
@@ -50,7 +51,7 @@ def test_every_option_is_read() -> None:
         "--turn -9 --start -100,.5,137 --friction 0.5 --push 2,0.2,-150,0,1e1 "
         "--push=3,0.1,0,-5,0 --pushes impulse=20,every=3 --seed 9 --physics-hz 2000 "
         "--control-hz 1000 --solver daqp --com-generator dcm --out there --no-plots --video "
-        "--view --list-robots --inspect my.urdf"
+        "--view --web --port 0 --list-robots --inspect my.urdf"
     )
     options = parse(line.split())
     assert options == cli_options.Options(
@@ -74,6 +75,8 @@ def test_every_option_is_read() -> None:
         out=Path("there"),
         video=True,
         view=True,
+        web=True,
+        port=0,
         list_robots=True,
         inspect="my.urdf",
         no_plots=True,
@@ -261,7 +264,15 @@ def test_the_readme_has_every_option_and_default(capsys: pytest.CaptureFixture[s
     defaults = dict(re.findall(r"\| `(--[a-z-]+)[^`]*` \|.*\| *(.*?) *\|\n", readme))
     assert set(defaults) == names
     options = parse([])
-    for name in ("steps", "step-length", "step-time", "double-support-ratio", "seed", "out"):
+    for name in (
+        "steps",
+        "step-length",
+        "step-time",
+        "double-support-ratio",
+        "seed",
+        "out",
+        "port",
+    ):
         value = getattr(options, name.replace("-", "_"))
         assert defaults[f"--{name}"].strip("`") == str(value)
 

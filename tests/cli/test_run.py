@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import socket
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -103,3 +105,36 @@ def test_view_without_a_screen_is_told(
     assert complaint(capsys) == (
         "preview-walk: --view: needs a screen, and there is none; allowed without one is --video."
     )
+
+
+def test_a_page_is_handed_to_the_simulation_and_written_with_the_plots(
+    simulation: Simulation, out: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written = []
+
+    def write(record: pw.Record, path: Path, robot: object) -> None:
+        written.append(robot)
+        path.write_text("a page")
+
+    monkeypatch.setattr("preview_walk.viewer.web.export.export_html", write)
+    assert run(out, "--web", "--port", "0") == 0
+    (call,) = simulation.calls
+    viewer = call["viewer"]
+    assert isinstance(viewer, partial)
+    assert (viewer.func, viewer.keywords) == (pw.show, {"port": 0})
+    assert {path.name for path in out.iterdir()} == OUTPUTS | {"walk.html"}
+    assert written == [call["robot"]]
+
+
+def test_a_page_that_cannot_be_is_told_before_the_walk(
+    simulation: Simulation, out: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert run(out, "--web", "--port", str(port)) == 2
+    assert complaint(capsys).startswith(f"preview-walk: --port: port must be free, got {port} at ")
+    assert run(out, "--web", "--view") == 2
+    assert complaint(capsys).startswith("preview-walk: --")
+    assert simulation.calls == []
