@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -96,18 +97,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
     arguments = list(sys.argv[1:] if argv is None else argv)
     parser = make_parser()
     found = parser.read(with_config(arguments, parser))
-    if len(found.velocity) != len(found.duration):
-        parser.error(
-            "--velocity: must come with one --duration each, got "
-            f"{len(found.velocity)} of --velocity and {len(found.duration)} of --duration."
-        )
-    given = [name for name in STEPPING if vars(found)[name[2:].replace("-", "_")] is not None]
-    if found.velocity and given:
-        parser.error(
-            f"{given[0]}: must be left out beside --velocity, which chooses the steps by itself."
-        )
-    if found.footsteps is not None and given != ["--footsteps"]:
-        parser.error(f"{given[0]}: must be left out beside --footsteps, which has all of them.")
+    _check_together(found, parser)
     x, y, yaw = found.start
     return Options(
         robot=found.robot,
@@ -147,6 +137,22 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         quiet=found.quiet,
         config=config_text(vars(found)),
     )
+
+
+def _check_together(found: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
+    """End the command where options do not go together."""
+    if len(found.velocity) != len(found.duration):
+        parser.error(
+            "--velocity: must come with one --duration each, got "
+            f"{len(found.velocity)} of --velocity and {len(found.duration)} of --duration."
+        )
+    given = [name for name in STEPPING if vars(found)[name[2:].replace("-", "_")] is not None]
+    if found.velocity and given:
+        parser.error(
+            f"{given[0]}: must be left out beside --velocity, which chooses the steps by itself."
+        )
+    if found.footsteps is not None and given != ["--footsteps"]:
+        parser.error(f"{given[0]}: must be left out beside --footsteps, which has all of them.")
 
 
 def _or(value: Any, default: Any) -> Any:

@@ -43,6 +43,15 @@ def test_numbers_come_back_to_the_last_digit(
     same(parse(["--config", str(path)]), options)
 
 
+def test_files_heights_and_what_is_printed_are_read() -> None:
+    options = parse(
+        ["--footsteps=a.csv", "--swing-height=.1", "--com-height=.8", "--json", "--quiet"]
+    )
+    assert (options.footsteps, options.swing_height, options.com_height) == ("a.csv", 0.1, 0.8)
+    assert options.json
+    assert options.quiet
+
+
 def test_what_is_typed_comes_on_top(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text('steps = 5\nstep-length = 0.2\npush = "1,0.1,5,0,0"\nblind = false\n')

@@ -82,21 +82,6 @@ def test_every_option_is_read() -> None:
         no_plots=True,
         config=options.config,
     )
-    more = parse(
-        [
-            "--footsteps",
-            "a.csv",
-            "--swing-height",
-            "0.1",
-            "--com-height",
-            "0.8",
-            "--json",
-            "--quiet",
-        ]
-    )
-    assert (more.footsteps, more.swing_height, more.com_height) == ("a.csv", 0.1, 0.8)
-    assert more.json
-    assert more.quiet
 
 
 PIECES = st.one_of(

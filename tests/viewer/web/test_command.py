@@ -38,5 +38,9 @@ def test_ctrl_c_ends_the_page_and_the_record_is_written(tmp_path: Path) -> None:
     assert command.returncode == 130, errors
     assert output.startswith("Stopped by Ctrl-C after 0.00 s")
     assert "Traceback" not in errors
-    assert {path.name for path in (tmp_path / "walk").iterdir()} == {"record.npz", "summary.json"}
+    assert {path.name for path in (tmp_path / "walk").iterdir()} == {
+        "record.npz",
+        "summary.json",
+        "run.toml",
+    }
     assert Record.load(tmp_path / "walk/record.npz").run.interrupted
