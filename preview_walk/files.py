@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from preview_walk.errors import InvalidInput, PreviewWalkError
+
+LARGEST_TOML = 10_000_000
+"""Bytes of a file of options or of a study."""
 
 LONG = 300
 """Longest path (characters) that a sentence has in full."""
@@ -57,6 +62,30 @@ def short(path: Path) -> str:
     """Return how a sentence names a path: its end, where it is very long."""
     name = str(path)
     return name if len(name) <= LONG else f"(and more){name[-60:]}"
+
+
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Return what a TOML file holds.
+
+    Raises:
+        InvalidInput: it cannot be read, is larger than `LARGEST_TOML`, or is no TOML.
+    """
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    place = as_path(path)
+    try:
+        if place.stat().st_size > LARGEST_TOML:
+            raise InvalidInput(f"{short(place)} is too large, more than {LARGEST_TOML} bytes.")
+        found: dict[str, Any] = tomllib.loads(place.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InvalidInput(f"cannot read {short(place)}: {error.strerror}.") from None
+    except InvalidInput:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise InvalidInput(f"{short(place)} is no TOML: {error}.") from None
+    return found
 
 
 @contextmanager

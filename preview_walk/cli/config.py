@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from preview_walk.cli.option_table import FLAGS, OPTIONS
 from preview_walk.errors import InvalidInput
+from preview_walk.files import read_toml
 
 NOT_KEPT = (
     *("--out", "--config", "--json", "--quiet", "--view", "--web", "--port"),
     *("--inspect", "--list-robots"),
 )
 """Options that a file neither keeps nor gives: they say how a walk is shown, or make none."""
-
-LARGEST = 1_000_000
-"""Bytes of a file of options."""
 
 
 def with_config(arguments: list[str], parser: argparse.ArgumentParser) -> list[str]:
@@ -37,7 +33,7 @@ def with_config(arguments: list[str], parser: argparse.ArgumentParser) -> list[s
     if path is None:
         return arguments
     try:
-        return [*_words(_read(Path(path))), *arguments]
+        return [*_words(read_toml(path)), *arguments]
     except InvalidInput as error:
         parser.error(f"--config: {error}")
 
@@ -60,22 +56,6 @@ def config_text(found: Mapping[str, Any]) -> str:
     flags = [name for name in FLAGS if found[_key(name)] and name not in NOT_KEPT]
     lines += [f"{name[2:]} = true" for name in flags]
     return "\n".join(lines) + "\n"
-
-
-def _read(path: Path) -> dict[str, Any]:
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        if path.stat().st_size > LARGEST:
-            raise InvalidInput(f"{path} is too large for a file of options.")
-        found: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InvalidInput(f"cannot read {path}: {error.strerror}.") from None
-    except (ValueError, RecursionError) as error:
-        raise InvalidInput(f"{path} is no TOML: {error}.") from None
-    return found
 
 
 def _words(given: Mapping[str, Any]) -> list[str]:

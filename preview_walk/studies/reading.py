@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import runpy
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from importlib import import_module
@@ -13,13 +12,10 @@ from typing import Any, TypeGuard
 
 from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.files import as_path, short
+from preview_walk.files import as_path, read_toml
 from preview_walk.studies.margin import Margin
 from preview_walk.studies.study import Study
 from preview_walk.studies.walk_case import walk_case
-
-LARGEST_FILE = 10_000_000
-"""Bytes of a study's file."""
 
 _SPREADS = {
     "uniform": ("low", "high"),
@@ -47,7 +43,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
         InvalidInput: it cannot be read, or a key or value is not a study's.
     """
     place = as_path(path)
-    given = _parsed(place)
+    given = read_toml(place)
     allowed = {field.name for field in fields(Study)} - {"metrics"}
     unknown = sorted(set(given) - allowed)
     if unknown:
@@ -61,22 +57,6 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     if "margin" in given:
         given["margin"] = _margin(given["margin"])
     return Study(**{"name": place.stem, **given})
-
-
-def _parsed(path: Path) -> dict[str, Any]:
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise InvalidInput(f"{short(path)} is too large to be a study's file.")
-        found: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
-        return found
-    except OSError as error:
-        raise InvalidInput(f"cannot read {short(path)}: {error.strerror}.") from None
-    except (ValueError, RecursionError) as error:
-        raise InvalidInput(f"{short(path)} is no TOML: {error}.") from None
 
 
 def _factors(given: object) -> Any:
