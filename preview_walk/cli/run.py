@@ -16,7 +16,7 @@ from preview_walk.cli.option_table import PUSH_TIME
 from preview_walk.cli.options import Options
 from preview_walk.cli.progress import progress_bar
 from preview_walk.cli.results import CONFIG, make_folder, result_names, write_results, writers_of
-from preview_walk.cli.streams import complain, say
+from preview_walk.cli.streams import complain, emphasised, say
 from preview_walk.errors import InvalidInput
 from preview_walk.files import claimed, whole_file
 from preview_walk.footsteps.plan import FootstepPlan
@@ -89,7 +89,7 @@ def _show(record: Record, options: Options) -> None:
     if options.json:
         say(json.dumps(record.summary().as_json(), indent=2))
     elif not options.quiet:
-        say(str(record.summary()))
+        say(emphasised(str(record.summary())))
 
 
 def _keep_config(text: str, path: Path) -> None:

@@ -91,3 +91,18 @@ def complain(sentence: str) -> None:
 def say(text: str) -> None:
     """Print to stdout."""
     print(text, flush=True)
+
+
+def emphasised(table: str) -> str:
+    """Return a table of figures whose outcome has a colour where a terminal shows it.
+
+    Who sets NO_COLOR has none, as everywhere.
+    """
+    if not sys.stdout.isatty() or os.environ.get("NO_COLOR"):
+        return table
+    for words, colour in (("did not fall", _GREEN), ("FELL", _RED)):
+        table = table.replace(words, f"\x1b[{colour}m{words}\x1b[0m", 1)
+    return table
+
+
+_GREEN, _RED = "32", "1;31"

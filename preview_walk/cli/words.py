@@ -1,4 +1,4 @@
-"""What the command does beside walking, by its first word: study, replay, plot, inspect."""
+"""What the command does beside walking, by its first word."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import DEFAULT_PORT
-from preview_walk.cli.parser import WordParser
+from preview_walk.cli.parser import WordParser, make_parser
 from preview_walk.cli.streams import say
 from preview_walk.cli.study import run_study_file
 from preview_walk.cli.values import text, whole
@@ -72,10 +72,25 @@ def inspect(arguments: Sequence[str], interruption: Interruption) -> int:
     return DONE if inspect_model(given.model, Path(given.out)) else BAD_INPUT
 
 
+def completion(arguments: Sequence[str], interruption: Interruption) -> int:
+    """Print what a shell needs to complete the command's options; return the exit code."""
+    import shtab
+
+    parser = WordParser(
+        "preview-walk completion",
+        description='Print the completion of a shell: eval "$(preview-walk completion bash)".',
+    )
+    parser.add_argument("shell", choices=shtab.SUPPORTED_SHELLS)
+    given = parser.parse_args(list(arguments))
+    say(shtab.complete(make_parser(), given.shell))
+    return DONE
+
+
 WORDS: Mapping[str, Callable[[Sequence[str], Interruption], int]] = {
     "study": run_study_file,
     "replay": replay,
     "plot": plot,
     "inspect": inspect,
+    "completion": completion,
 }
 """What each word does with what follows it."""

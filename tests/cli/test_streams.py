@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from preview_walk.cli.streams import SafeStream, complain, safe_streams, say
+from preview_walk.cli.streams import SafeStream, complain, emphasised, safe_streams, say
 
 
 class Broken(io.TextIOWrapper):
@@ -46,3 +46,16 @@ def test_streams_come_back_and_closed_ones_are_filled(monkeypatch: pytest.Monkey
         say("to stdout")
         assert sys.stdout is output  # type: ignore[comparison-overlap]
     assert sys.stdout is before
+
+
+@pytest.mark.parametrize(("words", "colour"), [("did not fall", "32"), ("FELL at 3 s", "1;31")])
+def test_the_outcome_has_a_colour_on_a_terminal_alone(
+    words: str, colour: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    table = f"robot    talos\noutcome  {words}"
+    assert emphasised(table) == table
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert f"\x1b[{colour}m" in emphasised(table)
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert emphasised(table) == table

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,7 @@ def test_a_record_is_drawn_again(record: Path, capsys: pytest.CaptureFixture[str
     assert (record.parent / "walk.png").stat().st_size > 10_000
 
 
-@pytest.mark.parametrize("word", ["plot", "replay", "inspect", "study"])
+@pytest.mark.parametrize("word", ["plot", "replay", "inspect", "study", "completion"])
 def test_a_word_alone_is_one_sentence(word: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main([word])
@@ -52,6 +53,23 @@ def test_what_cannot_be_is_one_sentence(
     assert code == 2
     assert sentence in said
     assert said.count("\n") == 1
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh"])
+def test_a_shell_can_complete_the_options(shell: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", shell]) == 0
+    said = capsys.readouterr().out
+    assert "swing-height" in said
+    assert "com-generator" in said
+
+
+def test_bash_takes_its_completion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["completion", "bash"])
+    script = tmp_path / "completion"
+    script.write_text(capsys.readouterr().out)
+    ask = f"source {script}; complete -p preview-walk"
+    found = subprocess.run(["bash", "-c", ask], capture_output=True, text=True, check=False)
+    assert "preview-walk" in found.stdout
 
 
 def test_a_model_is_reported_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
