@@ -22,9 +22,15 @@ from preview_walk.viewer.web.traces import POINTS, WIDTH
 SPAN = 1.0 / PICTURES
 
 
+@pytest.fixture(scope="module")
+def light() -> Robot:
+    """Return a robot of simple shapes, whose page is made in a moment."""
+    return pw.load_robot("humanoid-walker")
+
+
 @pytest.fixture
-def walk(talos: Robot) -> pw.Walk:
-    return pw.Walk.standing(talos)
+def walk(light: Robot) -> pw.Walk:
+    return pw.Walk.standing(light)
 
 
 @pytest.fixture
@@ -74,8 +80,8 @@ def test_a_push_is_felt_and_recorded(server: Any, walk: pw.Walk, page: LiveWalk)
     assert np.abs(record.com_velocity[record.time < push["t"], 1]).max() < 1e-4
 
 
-def test_a_push_is_towards_where_the_robot_faces(server: Any, talos: Robot) -> None:
-    walk = pw.Walk.standing(talos, (0.0, 0.0, np.pi / 2))
+def test_a_push_is_towards_where_the_robot_faces(server: Any, light: Robot) -> None:
+    walk = pw.Walk.standing(light, (0.0, 0.0, np.pi / 2))
     page = LiveWalk(walk, server, None)
     handle(server, "towards [deg]").value = 0.0
     handle(server, "impulse [N·s]").value = 20.0
@@ -219,12 +225,12 @@ def test_a_scene_of_ones_own_shows_what_is_in_it(server: Any, talos: Robot) -> N
     assert before == (bytes(model.geom_rgba), bytes(model.vis.rgba.contactforce))
 
 
-def test_a_plant_of_ones_own_is_shown_too(server: Any, talos: Robot) -> None:
+def test_a_plant_of_ones_own_is_shown_too(server: Any, light: Robot) -> None:
     class Own:
         """Forwards to a world, and is none."""
 
         def __init__(self) -> None:
-            self.world = pw.World(talos)
+            self.world = pw.World(light)
 
         def __getattr__(self, name: str) -> Any:
             return getattr(self.__dict__["world"], name)
