@@ -57,6 +57,18 @@ def test_other_gains_from_the_same_tick_on_walk_as_if_made_of_them(talos: Robot)
     assert [(change["t"], change["gains"]["dcm"]) for change in run.retuned] == [(0.0, 12.0)]
 
 
+def test_other_gains_reach_what_was_made_before(talos: Robot) -> None:
+    """A copy has no problems left of the old gains; the walk itself must not use them either."""
+    walk = pw.Walk.standing(talos)
+    walk.command(0.2, 0.0, 0.0)
+    walk.run(until=1.2)
+    twin = copy.deepcopy(walk)
+    for one in (walk, twin):
+        one.gains = replace(one.gains, foot=40.0, posture_weight=0.02, wrench_weight=0.01)
+        one.run(until=2.0)
+    np.testing.assert_array_equal(walk.record().q, twin.record().q)
+
+
 def test_a_task_of_ones_own_outlives_a_change_of_gains(talos: Robot) -> None:
     walk = pw.Walk.standing(talos)
     body = walk.walker.body

@@ -65,9 +65,10 @@ def moved(before: Any, after: Any) -> bool:
 
 
 def click(driver: Any, label: str) -> None:
-    """Click on a button of the page."""
+    """Click on a button of the page, whatever note of the browser's lies over it."""
     path = f"//button[.//text()[normalize-space()='{label}']]"
-    wait_for(lambda: driver.find_elements("xpath", path))[0].click()
+    button = wait_for(lambda: driver.find_elements("xpath", path))[0]
+    driver.execute_script("arguments[0].click()", button)
 
 
 def type_into(driver: Any, label: str, text: str) -> None:

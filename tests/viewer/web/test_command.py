@@ -31,7 +31,9 @@ def test_ctrl_c_ends_the_page_and_the_record_is_written(tmp_path: Path) -> None:
     assert command.stderr is not None
     while not re.search(r"^See http://127\.0\.0\.1:\d+ in a browser", command.stderr.readline()):
         assert command.poll() is None
-    while "walking" not in command.stderr.read(8):  # the loop has begun
+    said = ""
+    while "walking" not in said:  # the loop has begun
+        said += command.stderr.read(1)
         assert command.poll() is None
     command.send_signal(signal.SIGINT)
     output, errors = command.communicate(timeout=60)

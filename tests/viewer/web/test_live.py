@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 from page_handles import click, handle
 
 import preview_walk as pw
 from preview_walk.errors import InvalidInput
+from preview_walk.robots.load import spec_of
 from preview_walk.robots.robot import Robot
 from preview_walk.viewer.web import live
 from preview_walk.viewer.web.live import LiveWalk, run_live
@@ -20,9 +22,15 @@ from preview_walk.viewer.web.traces import POINTS, WIDTH
 SPAN = 1.0 / PICTURES
 
 
+@pytest.fixture(scope="module")
+def light() -> Robot:
+    """Return a robot of simple shapes, whose page is made in a moment."""
+    return pw.load_robot("humanoid-walker")
+
+
 @pytest.fixture
-def walk(talos: Robot) -> pw.Walk:
-    return pw.Walk.standing(talos)
+def walk(light: Robot) -> pw.Walk:
+    return pw.Walk.standing(light)
 
 
 @pytest.fixture
@@ -72,8 +80,8 @@ def test_a_push_is_felt_and_recorded(server: Any, walk: pw.Walk, page: LiveWalk)
     assert np.abs(record.com_velocity[record.time < push["t"], 1]).max() < 1e-4
 
 
-def test_a_push_is_towards_where_the_robot_faces(server: Any, talos: Robot) -> None:
-    walk = pw.Walk.standing(talos, (0.0, 0.0, np.pi / 2))
+def test_a_push_is_towards_where_the_robot_faces(server: Any, light: Robot) -> None:
+    walk = pw.Walk.standing(light, (0.0, 0.0, np.pi / 2))
     page = LiveWalk(walk, server, None)
     handle(server, "towards [deg]").value = 0.0
     handle(server, "impulse [N·s]").value = 20.0
@@ -196,3 +204,41 @@ def test_plots_have_what_the_record_has(server: Any, walk: pw.Walk, page: LiveWa
                 lines = getattr(record, name)[at, axis]
                 np.testing.assert_allclose(data[1 + 2 * k + j, 10:], lines, atol=2e-3)
     np.testing.assert_allclose(rows[10:, 1], record.com[at, 0], atol=1e-12)
+
+
+def test_a_scene_of_ones_own_shows_what_is_in_it(server: Any, talos: Robot) -> None:
+    """Also where another free body comes before the robot; the user's model stays as it is."""
+    spec = spec_of(talos, visuals=True)
+    box = spec.worldbody.add_body(name="box", pos=(1.0, 1.0, 0.2))
+    box.add_freejoint()
+    box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.1, 0.1))
+    model = spec.compile()
+    before = bytes(model.geom_rgba), bytes(model.vis.rgba.contactforce)
+    walk = pw.Walk.standing(pw.Scene(pw.load_robot(model), model, mujoco.MjData(model)))
+    page = LiveWalk(walk, server, None)
+    for _ in range(10):
+        page.picture()
+    frames = page._picture._nodes.frames
+    for body in (model.body("box").id, page._picture._stage.base):
+        np.testing.assert_allclose(frames[body].position, walk.plant.data.xpos[body], atol=2e-3)
+    assert frames[model.body("box").id].position[2] < 0.2
+    assert before == (bytes(model.geom_rgba), bytes(model.vis.rgba.contactforce))
+
+
+def test_a_plant_of_ones_own_is_shown_too(server: Any, light: Robot) -> None:
+    class Own:
+        """Forwards to a world, and is none."""
+
+        def __init__(self) -> None:
+            self.world = pw.World(light)
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(self.__dict__["world"], name)
+
+    walk = pw.Walk.standing(Own())
+    page = LiveWalk(walk, server, None)
+    page.picture()
+    qpos = walk.plant.world.data.qpos
+    np.testing.assert_allclose(configuration(walk), qpos, atol=1e-3)
+    with pytest.raises(InvalidInput, match="push needs a walk in MuJoCo"):
+        walk.push((1.0, 0.0, 0.0), 0.1)
