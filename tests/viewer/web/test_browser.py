@@ -13,6 +13,7 @@ import imageio.v3 as imageio
 import numpy as np
 import pytest
 from chromium import CHROMIUM, DRIVER, NEEDED, asked_for, browser, complaints
+from selenium.common.exceptions import TimeoutException
 
 import preview_walk as pw
 from preview_walk.robots.robot import Robot
@@ -40,7 +41,10 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
 def wait_for(what: Callable[[], Any]) -> Any:
     """Return the first value that is true; software draws slowly, so there is a minute for it."""
     for _ in range(600):
-        value = what()
+        try:
+            value = what()
+        except TimeoutException:  # the driver waits for ten seconds, a busy machine needs more
+            continue
         if value:
             return value
         time.sleep(0.1)
@@ -50,7 +54,12 @@ def wait_for(what: Callable[[], Any]) -> Any:
 def drawn(server: Any) -> Any:
     """Return what the page draws, as small pixels that the page itself sends."""
     (visitor,) = server.get_clients().values()
-    return visitor.get_render(90, 120, timeout=60.0)[..., :3].astype(int)
+    for _ in range(10):  # a busy machine may lose one
+        try:
+            return visitor.get_render(90, 120, timeout=20.0)[..., :3].astype(int)
+        except TimeoutError:
+            continue
+    raise AssertionError("the page draws nothing")
 
 
 def seen(driver: Any) -> Any:
@@ -87,16 +96,18 @@ def test_a_live_walk_is_steered_pushed_paused_and_ended(chromium: Any, light: Ro
         try:
             chromium.get(f"http://127.0.0.1:{server.get_port()}")
             wait_for(lambda: walk.time > 0.3)
+            click(chromium, "Pause")  # what stands still is drawn sooner
             wait_for(lambda: np.ptp(drawn(server)) > 150)
             before = drawn(server)
+            click(chromium, "Play")
             type_into(chromium, "forward [m/s]", "0.4")
             wait_for(lambda: walk.commanded == (0.4, 0.0, 0.0))
             wait_for(lambda: walk.plant.q[0] > 0.3)
-            assert moved(before, drawn(server))
             click(chromium, "Push")
-            wait_for(lambda: np.abs(walk.plant.push).max() > 70.0 or walk.plant.pushes)
+            wait_for(lambda: walk.plant.pushes and walk.time > walk.plant.pushes[0].t + 0.25)
             click(chromium, "Pause")
             wait_for(lambda: chromium.find_elements("xpath", "//button[contains(., 'Play')]"))
+            assert moved(before, drawn(server))
             paused = walk.time
             click(chromium, "One tick")
             wait_for(lambda: walk.time > paused)
@@ -130,7 +141,7 @@ def test_the_exported_file_plays_without_server_and_network(
     chromium.set_window_size(400, 300)
     chromium.get(path.as_uri())
     wait_for(lambda: np.ptp(seen(chromium)) > 150)
-    first = seen(chromium)
+    first = wait_for(lambda: [seen(chromium)])[0]
     wait_for(lambda: moved(first, seen(chromium)))
     assert complaints(chromium) == []
     assert asked_for(chromium) == {path.as_uri()}
