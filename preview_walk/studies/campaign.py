@@ -20,6 +20,7 @@ from preview_walk.studies.engine import rows_of
 from preview_walk.studies.journal import RECORDS, Journal, read_facts, read_rows
 from preview_walk.studies.pools import ClusterPool, LocalPool, Pool, require, workers_of
 from preview_walk.studies.results import Results
+from preview_walk.studies.stopping import Stop
 from preview_walk.studies.work import Campaign
 
 _MUST_AGREE = ("function", "source", "metrics", "seed", "margin")
@@ -69,16 +70,17 @@ def _run(study: Campaign, journal: Journal, pool: Pool, cases: Any, bar: Any) ->
     """Do cases and write their rows; return whether Ctrl-C stopped it."""
     succeeded = finished = 0
     work = study.work((journal.folder / RECORDS).resolve())
-    try:
-        with closing(pool), bar:
-            for row in rows_of(pool, work, cases):
-                journal.write(row)
-                finished, succeeded = finished + 1, succeeded + row.success
-                bar.set_postfix_str(f"{succeeded / finished:.0%} succeeded", refresh=False)
-                bar.update()
-    except KeyboardInterrupt:
-        return True
-    return False
+    with Stop() as stop:
+        try:
+            with closing(pool), bar:
+                for row in rows_of(pool, work, cases, stop):
+                    journal.write(row)
+                    finished, succeeded = finished + 1, succeeded + row.success
+                    bar.set_postfix_str(f"{succeeded / finished:.0%} succeeded", refresh=False)
+                    bar.update()
+        except KeyboardInterrupt:
+            return True
+    return stop.asked
 
 
 def _done(study: Campaign, folder: Path, versions: str, resume: bool) -> set[str]:

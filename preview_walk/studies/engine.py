@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from itertools import islice
 from platform import node
@@ -12,8 +12,13 @@ from preview_walk.studies.case import Case
 from preview_walk.studies.pools import Pool
 from preview_walk.studies.work import Row, Work
 
+LOOK = 0.25
+"""Seconds after which a wait looks whether it is to stop."""
 
-def rows_of(pool: Pool, work: Work, cases: Iterable[Case]) -> Iterator[Row]:
+
+def rows_of(
+    pool: Pool, work: Work, cases: Iterable[Case], stop: Callable[[], bool] = lambda: False
+) -> Iterator[Row]:
     """Yield the row of every case, as they end.
 
     Where a worker ends, the pool is made anew and the cases that it had are done one by one: what
@@ -23,15 +28,16 @@ def rows_of(pool: Pool, work: Work, cases: Iterable[Case]) -> Iterator[Row]:
         pool: that does them.
         work: what is done with each.
         cases: taken as there is room for them.
+        stop: whether to end before all are done.
     """
     left, flying = iter(cases), dict[Future[Row], Case]()
     while True:
-        for case in islice(left, max(0, pool.at_once - len(flying))):
-            flying[pool.submit(work, case)] = case
-        if not flying:
+        lost = _hand_over(pool, work, islice(left, max(0, pool.at_once - len(flying))), flying)
+        if not flying and not lost:
             return
-        done, _ = wait(flying, return_when=FIRST_COMPLETED)
-        lost: list[Case] = []
+        done, _ = wait(flying, LOOK, FIRST_COMPLETED)
+        if stop():
+            return
         for future in done:
             case, error = flying.pop(future), future.exception()
             if error is None:
@@ -41,25 +47,42 @@ def rows_of(pool: Pool, work: Work, cases: Iterable[Case]) -> Iterator[Row]:
             else:
                 yield _killed(case, error)
         if lost:
-            yield from _one_by_one(pool, work, lost, flying)
+            yield from _one_by_one(pool, work, [*lost, *_lost(flying)], stop)
+            yield from (future.result() for future in flying if future.exception() is None)
             flying.clear()
 
 
-def _one_by_one(
-    pool: Pool, work: Work, lost: list[Case], flying: dict[Future[Row], Case]
-) -> Iterator[Row]:
-    """Yield the rows of all cases that a broken pool had."""
+def _hand_over(
+    pool: Pool, work: Work, cases: Iterable[Case], flying: dict[Future[Row], Case]
+) -> list[Case]:
+    """Hand cases over; return that which a pool did not take because it was lost just then."""
+    for case in cases:
+        try:
+            flying[pool.submit(work, case)] = case
+        except RuntimeError as error:
+            if not pool.broken_by(error):
+                raise
+            return [case]
+    return []
+
+
+def _lost(flying: Mapping[Future[Row], Case]) -> list[Case]:
+    """Return the cases that a broken pool had and did not do."""
     wait(flying)
-    suspects = list(lost)
-    for future, case in flying.items():
-        if future.exception() is None:
-            yield future.result()
-        else:
-            suspects.append(case)
+    return [case for future, case in flying.items() if future.exception() is not None]
+
+
+def _one_by_one(
+    pool: Pool, work: Work, lost: list[Case], stop: Callable[[], bool]
+) -> Iterator[Row]:
+    """Yield the rows of cases that a broken pool had."""
     pool.renew()
-    for case in sorted(suspects, key=lambda case: case.index):
+    for case in sorted(lost, key=lambda case: case.index):
         began = perf_counter()
         future = pool.submit(work, case)
+        while not wait((future,), LOOK).done:
+            if stop():
+                return
         error = future.exception()
         if error is None:
             yield future.result()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
+import sys
+from pathlib import Path
+from types import ModuleType
 
-import command_study
 import numpy as np
 import pytest
 
@@ -16,6 +19,24 @@ from preview_walk.geometry.poses import pose_at
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.commands import FORGET, VelocityCommands
+
+
+def benchmark(name: str) -> ModuleType:
+    """Return a file of `benchmarks/`, whose folder is on no path: its names are those of rooms."""
+    path = Path(__file__).parents[2] / "benchmarks" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def study() -> ModuleType:
+    """Return the benchmark of which these tests are a sample: 20 sequences and long walks."""
+    benchmark("campaign")
+    return benchmark("command_study")
 
 
 def assert_on_plan(record: Record) -> None:
@@ -36,10 +57,10 @@ def mean_velocity(record: Record, start: float, end: float) -> float:
 
 
 @pytest.mark.parametrize("seed", [4, 16])
-def test_obeys_random_commands_at_random_times(talos: Robot, seed: int) -> None:
+def test_obeys_random_commands_at_random_times(talos: Robot, study: ModuleType, seed: int) -> None:
     """Twenty seconds of them; and it walks where pure planning, without a robot, says."""
-    table = command_study.random_commands(seed)
-    record = command_study.obey(talos, table)
+    table = study.random_commands(seed)
+    record = study.obey(talos, table)
     assert_on_plan(record)
     walk = pw.Walk.standing(talos)
     plan, limits = walk.plan, walk.limits
