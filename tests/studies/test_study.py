@@ -44,7 +44,9 @@ def test_a_study_that_is_stopped_goes_on_and_nothing_is_done_twice(
 ) -> None:
     study = pw.Study({"x": [0.0, 1.0, 2.0], "folder": str(tmp_path)}, slow, repeats=12)
     code = (
-        "import preview_walk as pw, study_cases\n"
+        "import signal, preview_walk as pw, study_cases\n"
+        # Whoever started the tests in the background may have told all to ignore Ctrl-C.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         f"pw.Study({study.factors!r}, study_cases.slow, repeats=12)"
         f".run({str(tmp_path / 'out')!r}, jobs=2, progress=False)"
     )
