@@ -1,4 +1,4 @@
-"""The bar that shows how far a walk is."""
+"""The bar that shows how far a walk or its film is."""
 
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ FORM = "{desc}: {percentage:3.0f}%|{bar}| {n:.1f}/{total:.1f} s [{elapsed}<{rema
 
 
 @contextmanager
-def progress_bar(*, shown: bool = True) -> Iterator[Callable[[float, float], None]]:
+def progress_bar(
+    what: str = "walking", *, shown: bool = True
+) -> Iterator[Callable[[float, float], None]]:
     """Show a bar on stderr; gives the function to call with the simulated time and its end, s.
 
     Args:
+        what: is done.
         shown: whether there is a bar at all.
     """
     from tqdm import tqdm
@@ -27,7 +30,7 @@ def progress_bar(*, shown: bool = True) -> Iterator[Callable[[float, float], Non
             return
         if not bars:
             interval = 0.1 if sys.stderr.isatty() else 5.0
-            bars.append(tqdm(desc="walking", total=end, bar_format=FORM, mininterval=interval))
+            bars.append(tqdm(desc=what, total=end, bar_format=FORM, mininterval=interval))
         bars[0].total = end
         bars[0].update(time - bars[0].n)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.naming import naming
+from preview_walk.cli.progress import progress_bar
 from preview_walk.errors import PreviewWalkError
 from preview_walk.files import OutputError, remove_stale_parts, whole_file
 from preview_walk.record.record import Record
@@ -46,7 +47,13 @@ def make_folder(folder: Path, names: Iterable[str]) -> None:
 
 
 def writers_of(
-    record: Record, robot: Robot, *, pictures: bool, film: bool, page: bool = False
+    record: Record,
+    robot: Robot,
+    *,
+    pictures: bool,
+    film: bool,
+    page: bool = False,
+    quiet: bool = False,
 ) -> tuple[Writers, Writers]:
     """Return what writes the figures of a run, and what writes its pictures."""
     from preview_walk.analysis.plots import PLOTS, plot, save_plot
@@ -57,7 +64,7 @@ def writers_of(
         drawn[OVERVIEW] = partial(plot, record)
         drawn |= {f"{name}.png": partial(save_plot, record, name) for name in PLOTS}
     if film and len(record):
-        drawn[FILM] = partial(_film, record, robot)
+        drawn[FILM] = partial(_film, record, robot, shown=not quiet)
     if page and len(record):
         drawn[PAGE] = partial(_page, record, robot)
     return figures, drawn
@@ -106,8 +113,9 @@ def _page(record: Record, robot: Robot, path: Path) -> None:
         export_html(record, path, robot)
 
 
-def _film(record: Record, robot: Robot, path: Path) -> None:
+def _film(record: Record, robot: Robot, path: Path, *, shown: bool) -> None:
     from preview_walk.viewer.video import render_video
 
-    with naming("--video"), whole_file(path) as part:
-        render_video(record, robot, part)
+    bar = progress_bar("filming", shown=shown)
+    with naming("--video"), whole_file(path) as part, bar as progress:
+        render_video(record, robot, part, progress=progress)

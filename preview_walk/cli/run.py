@@ -72,6 +72,7 @@ def _write(record: Record, robot: Robot, options: Options, interruption: Interru
         pictures=not options.no_plots,
         film=options.video and not stopped,
         page=options.web and not options.no_plots,
+        quiet=options.quiet,
     )
     figures = {**figures, CONFIG: partial(_keep_config, options.config)}
     written, failure = write_results(options.out, figures, pictures, interruption)

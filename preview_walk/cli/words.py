@@ -9,6 +9,7 @@ from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import DEFAULT_PORT
 from preview_walk.cli.parser import WordParser, make_parser
+from preview_walk.cli.progress import progress_bar
 from preview_walk.cli.streams import say
 from preview_walk.cli.study import run_study_file
 from preview_walk.cli.values import text, whole
@@ -37,7 +38,9 @@ def replay(arguments: Sequence[str], interruption: Interruption) -> int:
     if given.html:
         say(f"Written: {pw.export_html(record, given.html, robot)}")
     if given.video:
-        say(f"Written: {pw.render_video(record, robot, given.video)}")
+        with progress_bar("filming") as progress:
+            film = pw.render_video(record, robot, given.video, progress=progress)
+        say(f"Written: {film}")
     if not given.html and not given.video:
         pw.show(record, port=given.port, robot=robot)
     return DONE

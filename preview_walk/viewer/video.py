@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from preview_walk.arguments import instance_of, real_array, shown
+from preview_walk.arguments import function_of, instance_of, real_array, shown
 from preview_walk.errors import InvalidInput
 from preview_walk.files import as_path
 from preview_walk.geometry.poses import midfeet
@@ -106,8 +106,20 @@ def _smooth(path: Array, ticks: int) -> Array:
     return average
 
 
-def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> Path:
-    """Write an mp4 of a recorded walk in real time and return its path.
+def render_video(
+    record: Record,
+    robot: Robot,
+    path: str | os.PathLike[str],
+    *,
+    progress: Callable[[float, float], None] | None = None,
+) -> Path:
+    """Write an mp4 that plays a recorded walk in real time; return its path.
+
+    Args:
+        record: the walk.
+        robot: the one that walked.
+        path: of the film.
+        progress: called for every picture with its time and the end (s), from the walk's start.
 
     Raises:
         InvalidInput: an argument that cannot be, or a record of another robot.
@@ -115,6 +127,7 @@ def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> 
     """
     import imageio.v2 as imageio
 
+    function_of(progress, "progress")
     require_pictures(record, robot)
     target = as_path(path)
     count = max(1, int((record.time[-1] - record.time[0]) * FPS))
@@ -124,8 +137,10 @@ def render_video(record: Record, robot: Robot, path: str | os.PathLike[str]) -> 
             target, format="FFMPEG", fps=FPS, codec="libx264", quality=8, macro_block_size=8
         )
         with writer:
-            for frame in frames(record, robot, times.tolist()):
+            for number, frame in enumerate(frames(record, robot, times.tolist()), 1):
                 writer.append_data(frame)
+                if progress is not None:
+                    progress(number / FPS, count / FPS)
     except (OSError, ValueError, ImportError) as error:
         raise RenderError(f"cannot write the video {target}: {error}") from error
     return target

@@ -76,7 +76,8 @@ def test_video_is_written_whole_or_not_at_all(
 ) -> None:
     from preview_walk.viewer import video
 
-    def render(record: Record, robot: Any, path: Path) -> None:
+    def render(record: Record, robot: Any, path: Path, *, progress: Any) -> None:
+        progress(0.5, 1.0)
         path.write_bytes(b"half a film")
         if broken:
             raise PreviewWalkError("no OpenGL to render with")

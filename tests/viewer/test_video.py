@@ -62,7 +62,12 @@ def test_the_film_lasts_as_long_as_the_walk(
             yield np.full((*SIZE, 3), int(30 * time), dtype=np.uint8)
 
     monkeypatch.setattr(video, "frames", grey)
-    path = render_video(short_walk, talos, tmp_path / "walk.mp4")
+    told: list[tuple[float, float]] = []
+    path = render_video(
+        short_walk, talos, tmp_path / "walk.mp4", progress=lambda *t: told.append(t)
+    )
+    assert len(told) == len(asked)
+    assert told[-1][0] == told[-1][1] == pytest.approx(len(asked) / video.FPS)
     assert asked[0] == short_walk.time[0]
     assert np.diff(asked) == pytest.approx(1.0 / video.FPS)
     assert asked[-1] == pytest.approx(short_walk.time[-1], abs=2.0 / video.FPS)
