@@ -47,7 +47,12 @@ def write_report(results: Results, path: str | os.PathLike[str] | None = None) -
     target = results.folder / "report.html" if path is None else as_path(path)
     facts = read_facts(results.folder) or {}
     title = escape(str(facts.get("name", "study")))
-    body = [f"<h1>{title}</h1>", _facts(facts, results), *_tables(results), *_maps(results)]
+    names = results.varied
+    body = [f"<h1>{title}</h1>", _facts(facts, results)]
+    body += [_table(results, by) for by in [(), *((name,) for name in names)]]
+    body += _maps(results)
+    if len(names) > 1:
+        body.append(_table(results, names))
     body.append(_failures(results.table))
     page = (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
@@ -62,7 +67,7 @@ def _facts(facts: dict[str, object], results: Results) -> str:
     table = results.table
     shown = {
         "function": facts.get("function"),
-        "factors": facts.get("factors"),
+        "factors": _in_words(facts.get("factors")),
         "repeats": facts.get("repeats"),
         "seed": facts.get("seed"),
         "margin": facts.get("margin"),
@@ -74,17 +79,18 @@ def _facts(facts: dict[str, object], results: Results) -> str:
     return f"<dl>{''.join(items)}</dl>"
 
 
-def _tables(results: Results) -> list[str]:
-    found = "margin" in results.table
-    groups: list[tuple[str, ...]] = [(), *((name,) for name in results.varied)]
-    if len(results.varied) > 1:
-        groups.append(results.varied)
-    parts = []
-    for by in groups:
-        table = results.margins(by) if found else results.survival(by)
-        parts.append(f"<h2>{escape('By ' + ', '.join(by) if by else 'All cases')}</h2>")
-        parts.append(f"<div>{_html(table)}</div>")
-    return parts
+def _in_words(factors: object) -> str:
+    """Return factors by name, or how many rows there are."""
+    if not isinstance(factors, dict):
+        return str(factors or "")
+    return "; ".join(f"{name} = {levels}" for name, levels in factors.items())
+
+
+def _table(results: Results, by: tuple[str, ...]) -> str:
+    """Return survival or margins by factors."""
+    table = results.margins(by) if "margin" in results.table else results.survival(by)
+    title = escape("By " + ", ".join(by) if by else "All cases")
+    return f"<h2>{title}</h2><div>{_html(table)}</div>"
 
 
 def _maps(results: Results) -> list[str]:
