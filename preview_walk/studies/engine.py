@@ -36,8 +36,6 @@ def rows_of(
         if not flying and not lost:
             return
         done, _ = wait(flying, LOOK, FIRST_COMPLETED)
-        if stop():
-            return
         for future in done:
             case, error = flying.pop(future), future.exception()
             if error is None:
@@ -46,6 +44,8 @@ def rows_of(
                 lost.append(case)
             else:
                 yield _killed(case, error)
+        if stop():
+            return
         if lost:
             yield from _one_by_one(pool, work, [*lost, *_lost(flying)], stop)
             yield from (future.result() for future in flying if future.exception() is None)
