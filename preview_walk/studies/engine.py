@@ -10,6 +10,7 @@ from time import perf_counter
 
 from preview_walk.studies.case import Case
 from preview_walk.studies.pools import Pool
+from preview_walk.studies.time_limit import GRACE
 from preview_walk.studies.work import Row, Work
 
 LOOK = 0.25
@@ -89,7 +90,7 @@ def _one_by_one(
             continue
         pool.renew()
         spent = perf_counter() - began
-        if work.time_limit is not None and spent > work.time_limit:
+        if work.time_limit is not None and spent > work.time_limit + GRACE:
             reason = f"over the time limit of {work.time_limit:g} s, in code that did not return"
             yield Row(case, "timeout", reason, seconds=spent, host=node())
         else:

@@ -88,8 +88,8 @@ class LocalPool:
 class ClusterPool:
     """The workers of a Dask cluster, which should have one thread each.
 
-    The scheduler gives the cases of a worker that ended to others, and after three of them that
-    ended with the same case an error, which is that case's.
+    The scheduler gives the cases of a worker that ended to others, and blames each that was there
+    when the fourth of them ended, whichever it was that ended them.
     """
 
     def __init__(self, scheduler: str) -> None:
@@ -123,11 +123,13 @@ class ClusterPool:
         return self._executor.submit(run_case, work, case)
 
     def broken_by(self, error: BaseException) -> bool:
-        """Return False: the scheduler outlives its workers."""
-        return False
+        """Return whether a case is blamed for its workers' ends; alone it shows if rightly."""
+        from distributed.scheduler import KilledWorker
+
+        return isinstance(error, KilledWorker)
 
     def renew(self) -> None:
-        """Do nothing."""
+        """Do nothing: the scheduler outlives its workers, and has others started."""
 
     def close(self) -> None:
         """Let go of the cluster, and of the cases that it has not done."""
