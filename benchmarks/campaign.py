@@ -62,7 +62,8 @@ def run(
             scheduler=given.scheduler,
         )
     except pw.PreviewWalkError as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
+        option = "--resume: " if getattr(error, "argument", None) == "resume" else ""
+        print(f"{parser.prog}: {option}{error}", file=sys.stderr)
         return 2
     for row in results.table[results.table["outcome"] != "done"].itertuples():
         print(f"case {row.Index} ended by {row.outcome}: {row.reason}")

@@ -19,7 +19,17 @@ MAX_LINES, MAX_FUNCTION, MAX_ARGUMENTS = 300, 50, 5
 MORE_ARGUMENTS = {"pose_at", "PreviewController.__init__"}
 """Six numbers, no value: the coordinates of a pose, the walking lab's parameters."""
 
-SERVICES = {"arguments", "constants", "errors", "files", "html", "offscreen", "threads", "types"}
+SERVICES = {
+    "arguments",
+    "constants",
+    "errors",
+    "extras",
+    "files",
+    "html",
+    "offscreen",
+    "threads",
+    "types",
+}
 """Files that serve all rooms; they import each other alone."""
 
 FACES = {"preview_walk", "__main__"}

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from preview_walk.cli.naming import naming
-from preview_walk.cli.results import make_folder
 from preview_walk.cli.streams import complain, say
-from preview_walk.files import whole_file
+from preview_walk.files import make_folder, whole_file
 from preview_walk.robots.inspection import inspect_robot
 
 PICTURE = "stance.png"

@@ -34,6 +34,7 @@ OPTION_OF = {
     "com_generator": "--com-generator",
     "realism": "--realism",
     "port": "--port",
+    "resume": "--resume",
     "footsteps": "--footsteps",
     "swing_height": "--swing-height",
     "com_height": "--com-height",

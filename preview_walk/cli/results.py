@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.naming import naming
 from preview_walk.cli.progress import progress_bar
 from preview_walk.errors import PreviewWalkError
-from preview_walk.files import OutputError, remove_stale_parts, whole_file
+from preview_walk.files import OutputError, whole_file
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 
@@ -26,24 +25,6 @@ def result_names() -> tuple[str, ...]:
     from preview_walk.analysis.plots import PLOTS
 
     return (RECORD, SUMMARY, CONFIG, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM, PAGE)
-
-
-def make_folder(folder: Path, names: Iterable[str]) -> None:
-    """Make the folder for files of these names, and clear away what a killed run left in it.
-
-    Raises:
-        OutputError: it cannot be made or written to, or a name is taken by a folder.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot make the folder {folder}: {error.strerror}.") from error
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise OutputError(f"cannot write to the folder {folder}: Permission denied.")
-    for name in names:
-        if (folder / name).is_dir():
-            raise OutputError(f"cannot write {folder / name}: Is a directory.")
-    remove_stale_parts(folder)
 
 
 def writers_of(

@@ -15,10 +15,10 @@ from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import PUSH_TIME
 from preview_walk.cli.options import Options
 from preview_walk.cli.progress import progress_bar
-from preview_walk.cli.results import CONFIG, make_folder, result_names, write_results, writers_of
+from preview_walk.cli.results import CONFIG, result_names, write_results, writers_of
 from preview_walk.cli.streams import complain, emphasised, say
 from preview_walk.errors import InvalidInput
-from preview_walk.files import claimed, whole_file
+from preview_walk.files import claimed, make_folder, whole_file
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot

@@ -10,6 +10,9 @@ from typing import Any, TextIO
 
 from preview_walk.errors import in_short
 
+_GREEN, _RED = "32", "1;31"
+"""Colours of a terminal (SGR)."""
+
 
 class SafeStream:
     """A text stream whose writes do not fail.
@@ -103,6 +106,3 @@ def emphasised(table: str) -> str:
     for words, colour in (("did not fall", _GREEN), ("FELL", _RED)):
         table = table.replace(words, f"\x1b[{colour}m{words}\x1b[0m", 1)
     return table
-
-
-_GREEN, _RED = "32", "1;31"

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from preview_walk.cli.interruption import Interruption
+from preview_walk.cli.naming import naming
 from preview_walk.cli.parser import WordParser
 from preview_walk.cli.streams import say
 from preview_walk.cli.values import text, whole
@@ -79,13 +80,14 @@ def run_study_file(arguments: Sequence[str], interruption: Interruption) -> int:
             values = ", ".join(f"{name}={value}" for name, value in case.values.items())
             say(f"  {values}, seed {case.seed}")
         return ALL_ENDED
-    results = study.run(
-        folder,
-        jobs=given.jobs,
-        resume=given.resume,
-        limit=given.limit,
-        scheduler=given.scheduler,
-    )
+    with naming(given.file):
+        results = study.run(
+            folder,
+            jobs=given.jobs,
+            resume=given.resume,
+            limit=given.limit,
+            scheduler=given.scheduler,
+        )
     say(str(results))
     page = write_report(results)
     say(f"Written to {folder}: results.parquet, {page.name}")

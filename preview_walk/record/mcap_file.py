@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from preview_walk.arguments import instance_of
+from preview_walk.extras import require
 from preview_walk.files import whole_file
+from preview_walk.geometry.quaternions import quaternions_of
 from preview_walk.record.record import Record
 from preview_walk.record.ros_messages import definition_of
-from preview_walk.record.table import quaternions_of, required
 
 WORLD, BASE = "world", "base_link"
 """Frames of what is in world axes, and of the robot's base."""
@@ -49,9 +50,11 @@ def write_mcap(record: Record, path: str | os.PathLike[str]) -> Path:
         OutputError: the file cannot be written.
     """
     instance_of(record, Record, "record")
-    writing = required("mcap_ros2.writer", "mcap-ros2-support")
+    require("an MCAP file", "export", "mcap_ros2")
+    from mcap_ros2.writer import Writer
+
     with whole_file(path) as part, part.open("wb") as stream:
-        writer = writing.Writer(stream)
+        writer: Any = Writer(stream)
         kinds = {
             kind: writer.register_msgdef(kind.replace("/", "/msg/"), definition_of(kind))
             for kind in dict.fromkeys(_KINDS.values())

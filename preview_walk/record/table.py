@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
+from preview_walk.extras import require
+from preview_walk.geometry.quaternions import quaternions_of
 from preview_walk.record.fields import FIELDS, FieldInfo
 from preview_walk.record.sensed import SENSED
-from preview_walk.types import Array
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,7 +58,9 @@ def frame_of(
     arrays: Mapping[str, NDArray[Any]], joints: Sequence[str], fields: Sequence[str] | None
 ) -> pd.DataFrame:
     """Return arrays as a table over `time`; see `Record.to_dataframe`."""
-    pd = required("pandas")
+    require("a record as a table", "export", "pandas")
+    import pandas as pd
+
     columns = dict(_columns(arrays, joints, _chosen(arrays, fields)))
     table = pd.DataFrame(columns, index=pd.Index(arrays["time"], name="time"))
     table.attrs["units"] = {name: INFOS[name].unit for name in _chosen(arrays, fields)}
@@ -70,7 +71,9 @@ def dataset_of(
     arrays: Mapping[str, NDArray[Any]], joints: Sequence[str], facts: Mapping[str, Any]
 ) -> xr.Dataset:
     """Return arrays with named axes; see `Record.to_xarray`."""
-    xarray = required("xarray")
+    require("a record as labelled arrays", "export", "xarray")
+    import xarray as xr
+
     found = {}
     for name, array in arrays.items():
         info = INFOS[name]
@@ -87,7 +90,7 @@ def dataset_of(
         if info.shape and info.shape != (4, 4):
             coords[_axis(info)] = list(labels_of(info, array.shape[1], joints))
     plain = {name: str(value) for name, value in facts.items() if value is not None}
-    dataset: xr.Dataset = xarray.Dataset(found, coords=coords, attrs=plain)
+    dataset: xr.Dataset = xr.Dataset(found, coords=coords, attrs=plain)
     return dataset
 
 
@@ -126,31 +129,3 @@ def _chosen(arrays: Mapping[str, NDArray[Any]], fields: Sequence[str] | None) ->
                 argument="fields",
             )
     return wanted
-
-
-def quaternions_of(turns: Array) -> Array:
-    """Return quaternions xyzw (N, 4) of rotations (N, 3, 3), nan where these are."""
-    found = np.full((len(turns), 4), np.nan)
-    known = np.isfinite(turns).all(axis=(1, 2))
-    if known.any():
-        found[known] = Rotation.from_matrix(turns[known]).as_quat(canonical=True)
-    return found
-
-
-def required(module: str, package: str | None = None) -> Any:
-    """Return a module of the extra "export".
-
-    Args:
-        module: its name.
-        package: that brings it, where it has another name.
-
-    Raises:
-        InvalidInput: it is not installed; says how to install it.
-    """
-    try:
-        return import_module(module)
-    except ImportError:
-        raise InvalidInput(
-            f"this needs {package or module}, which is not installed: pip install "
-            "'preview-walk[export]' brings it."
-        ) from None

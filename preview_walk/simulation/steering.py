@@ -30,6 +30,8 @@ class Steered:
 
     plant: Plant
     walker: Walker
+    _start: float
+    _tick: int
     _dt: float
     _commands: VelocityCommands
     _requests: Requests
@@ -38,8 +40,8 @@ class Steered:
 
     @property
     def time(self) -> float:
-        """Simulated time, s."""
-        raise NotImplementedError
+        """Simulated time (s); the plan's start at first."""
+        return self._start + self._tick * self._dt
 
     @property
     def plan(self) -> FootstepPlan:

@@ -159,11 +159,6 @@ class Walk(Steered):
         object.__setattr__(self, name, value)
 
     @property
-    def time(self) -> float:
-        """Simulated time (s); the plan's start at first."""
-        return self._start + self._tick * self._dt
-
-    @property
     def fallen(self) -> bool:
         """Whether the robot has fallen or its controller has stopped."""
         return self._fall is not None

@@ -13,12 +13,13 @@ from typing import Any
 
 from preview_walk.arguments import count_of
 from preview_walk.errors import InvalidInput
+from preview_walk.extras import require
 from preview_walk.files import as_path, short
 from preview_walk.record.recorder import package_versions
 from preview_walk.studies.case import Case
 from preview_walk.studies.engine import rows_of
 from preview_walk.studies.journal import RECORDS, Journal, read_facts, read_rows
-from preview_walk.studies.pools import ClusterPool, LocalPool, Pool, require, workers_of
+from preview_walk.studies.pools import ClusterPool, LocalPool, Pool
 from preview_walk.studies.results import Results
 from preview_walk.studies.stopping import Stop
 from preview_walk.studies.work import Campaign
@@ -42,7 +43,7 @@ def run_study(
     progress: bool,
 ) -> Results:
     """Do what is left of a study; the arguments and errors are those of `Study.run`."""
-    require("pandas")
+    require("a study", "studies", "pandas", "pyarrow", "cloudpickle")
     if jobs is not None and count_of(jobs, "jobs", 1024) < 1:
         raise InvalidInput("jobs must be at least 1, got 0.", argument="jobs")
     if limit is not None:
@@ -55,10 +56,11 @@ def run_study(
         journal.describe({**study.facts(), "versions": journal.versions})
         left = (case for case in study.cases() if case.key not in done)
         count = sum(case.key not in done for case in study.cases()) if done else len(study)
-        todo = list(islice(left, limit)) if limit is not None else left
         if count:
-            pool = LocalPool(workers_of(jobs)) if scheduler is None else ClusterPool(scheduler)
-            interrupted = _run(study, journal, pool, todo, _bar(study, count, limit, progress))
+            pool = LocalPool(jobs) if scheduler is None else ClusterPool(scheduler)
+            interrupted = _run(
+                study, journal, pool, islice(left, limit), _bar(study, count, limit, progress)
+            )
         else:
             interrupted = False
         results = Results.of(study, place, interrupted=interrupted)
@@ -66,7 +68,7 @@ def run_study(
     return results
 
 
-def _run(study: Campaign, journal: Journal, pool: Pool, cases: Any, bar: Any) -> bool:
+def _run(study: Campaign, journal: Journal, pool: Pool, cases: Iterator[Case], bar: Any) -> bool:
     """Do cases and write their rows; return whether Ctrl-C stopped it."""
     succeeded = finished = 0
     work = study.work((journal.folder / RECORDS).resolve())
@@ -129,7 +131,6 @@ def _bar(study: Campaign, count: int, limit: int | None, progress: bool) -> Any:
 
 def _require_picklable(study: Campaign) -> None:
     """Check that the workers can be told what to do."""
-    require("cloudpickle")
     import cloudpickle
 
     try:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import OutputError, claimed, short, whole_file
+from preview_walk.files import OutputError, claimed, make_folder, short, whole_file
 from preview_walk.studies.figures import storable
 from preview_walk.studies.work import Row
 
@@ -36,16 +36,11 @@ class Journal:
         """Make the folder, unless there is one.
 
         Raises:
-            OutputError: it cannot be made.
+            OutputError: it cannot be made or written to.
         """
         self.folder, self.versions = folder, versions
         self._file: Any = None
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputError(
-                f"cannot make the folder {short(folder)}: {error.strerror}."
-            ) from error
+        make_folder(folder, (STUDY, ROWS, TABLE))
 
     @contextmanager
     def open(self) -> Iterator[None]:

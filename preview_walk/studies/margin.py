@@ -11,6 +11,9 @@ import numpy as np
 from preview_walk.arguments import count_of, finite_number, instance_of, positive_number
 from preview_walk.errors import InvalidInput
 
+STRIDES = 10
+"""The search goes up in so many strides, until one is not survived."""
+
 
 @dataclass(frozen=True)
 class Margin:
@@ -66,7 +69,7 @@ class Found:
 def largest(margin: Margin, survives: Callable[[float], bool]) -> Found:
     """Return the largest value that is survived.
 
-    The search goes up from below in growing strides, for what is survived is known before what is
+    The search goes up from below in strides, for what is survived is known before what is
     not, and halves what is left between.
 
     Args:
@@ -80,7 +83,7 @@ def largest(margin: Margin, survives: Callable[[float], bool]) -> Found:
         return tried[value]
 
     low, high = margin.low, inf
-    stride = max((margin.high - margin.low) / 8.0, margin.precision)
+    stride = max((margin.high - margin.low) / STRIDES, margin.precision)
     while low < margin.high and high == inf:
         value = min(low + stride, margin.high)
         low, high = (value, high) if test(value) else (low, value)

@@ -93,10 +93,9 @@ def polar_plot(
 def _over(results: Results, by: list[str], value: str) -> pd.Series:
     """Return a figure by columns: the median of each group, or the share of successes."""
     instance_of(results, Results, "results")
-    share = results.survival(by)[SHARE]
     if value == SHARE:
-        return share
-    results.survival([*by, value])  # says what columns there are, where this is none
+        return results.survival(by)[SHARE]
+    results.survival([*by, value])  # says what columns there are, where one is none
     return results.table.groupby(by, sort=False, dropna=False)[value].median()
 
 

