@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import time
 from dataclasses import replace
+from functools import cache
 from typing import get_args
 
 from matplotlib.figure import Figure
@@ -81,6 +82,7 @@ REFERENCE: dict[str, dict[float | None, tuple[Cell, ...]]] = {
 """Robot, share of single support (None: standing), then a cell for each direction in order."""
 
 
+@cache
 def own_limits(name: str) -> PushGait:
     """Return the same pendulum and walk with the limits that the controller's recovery steps by.
 

@@ -23,7 +23,7 @@ from typing import Any, get_args
 import numpy as np
 from campaign import make_parser, run
 from matplotlib.figure import Figure
-from push_bound_table import GAITS
+from push_bound_table import GAITS, own_limits
 
 import preview_walk as pw
 from preview_walk import Answer, Foot, largest_impulse, other
@@ -84,9 +84,13 @@ def study(given: argparse.Namespace) -> pw.Study:
 
 
 def bounds(robot: str, share: float | None, angle: int) -> list[float]:
-    """Return the pendulum's largest impulses (N·s): CoP alone, steps, steps and timing."""
-    gait = GAITS[robot.upper()]
-    return [largest_impulse(gait, share, radians(angle), answer) for answer in get_args(Answer)]
+    """Return the pendulum's largest impulses (N·s).
+
+    With CoP alone, steps, steps and timing in stated limits, steps and timing in recovery's own.
+    """
+    gait, at, answers = GAITS[robot.upper()], radians(angle), get_args(Answer)
+    stated = [largest_impulse(gait, share, at, answer) for answer in answers]
+    return [*stated, largest_impulse(own_limits(robot.upper()), share, at, answers[-1])]
 
 
 def report(results: pw.Results, given: argparse.Namespace) -> int:
@@ -98,7 +102,9 @@ def report(results: pw.Results, given: argparse.Namespace) -> int:
     shares = [share for share in SHARES if any(key[0] == share for key in found)]
     figure = Figure(figsize=(4 * len(shares), 4.5), layout="constrained")
     panels = figure.subplots(1, len(shares), squeeze=False, subplot_kw={"projection": "polar"})
-    print(f"{given.robot}: largest impulse (N·s), left / right stance (bounds a / b / c), shares")
+    print(
+        f"{given.robot}: largest impulse (N·s), left / right stance (bounds a / b / c / d), shares"
+    )
     ratios = []
     for share, axes in zip(shares, panels[0], strict=True):
         angles = sorted({key[1] for key in found if key[0] == share})
@@ -113,11 +119,12 @@ def report(results: pw.Results, given: argparse.Namespace) -> int:
         axes.set_title(title)
     figure.suptitle(
         f"{given.robot}: largest push (N·s), left stance blue, right stance orange; "
-        "dotted: CoP alone, dashed: footholds free"
+        "bounds: dotted CoP alone (a), dashed footholds free (b), "
+        "dash-dotted their times too (c), grey (c) in recovery's own limits (d)"
     )
     figure.savefig(given.out / "pushes.png", dpi=110)
     means = " / ".join(f"{mean:.2f}" for mean in np.mean(ratios, axis=0))
-    print(f"mean shares, of the weaker stance, of (a) / (b) / (c): {means}")
+    print(f"mean shares, of the weaker stance, of (a) / (b) / (c) / (d): {means}")
     return 0
 
 
@@ -136,11 +143,11 @@ def line(title: str, angle: int, rows: list[Any], limit: list[float]) -> str:
 def draw(
     axes: Any, angles: list[int], found: dict[Any, Any], limit: dict[int, list[float]]
 ) -> None:
-    """Draw what is survived over the bounds (a) and (b)."""
+    """Draw what is survived over the bounds."""
     ring = [*angles, angles[0]]
     turn = [radians(angle) for angle in ring]
-    for k, style in enumerate((":", "--")):
-        axes.plot(turn, [limit[a][k] for a in ring], "k" + style, lw=0.8)
+    for k, (style, colour) in enumerate(((":", "k"), ("--", "k"), ("-.", "k"), ("-", "0.7"))):
+        axes.plot(turn, [limit[a][k] for a in ring], ls=style, color=colour, lw=0.8)
     for stance, colour in (("left", "#0072B2"), ("right", "#E69F00")):
         margins = [getattr(found.get((a, stance)), "margin", nan) for a in ring]
         axes.plot(turn, margins, color=colour, marker="o", ms=3)

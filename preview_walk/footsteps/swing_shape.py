@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
-from preview_walk.arguments import finite_number, number_from_zero
+from preview_walk.arguments import SMALLEST, finite_number, number_from_zero
 from preview_walk.errors import InvalidInput
 
 LONGEST_WAIT = 0.8
@@ -43,6 +44,17 @@ class SwingShape:
             )
         if not 0.1 <= self.apex <= 0.9:
             raise InvalidInput(f"apex must be from 0.1 to 0.9, got {self.apex}.", "apex")
+
+    def way(self, lift: float, land: float, t: float = -inf) -> tuple[float, float]:
+        """Return when the way to the landing begins and ends, s; seen from t, no earlier than t."""
+        swing = land - lift
+        go, arrive = max(t, lift + self.before * swing), land - self.after * swing
+        # What is late travels until it lands.
+        return go, (arrive if arrive > go + SMALLEST else land)
+
+    def top(self, lift: float, land: float) -> float:
+        """Return when the swing is at its apex, s."""
+        return lift + self.apex * (land - lift)
 
 
 PLAIN = SwingShape()

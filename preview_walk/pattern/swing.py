@@ -25,6 +25,9 @@ from preview_walk.types import Array
 RISEN_SHARE = 0.48
 """Share of its rise that the sole has made when a tenth of the horizontal travel is done."""
 
+GROUND_CLEARANCE = 0.02
+"""Default height (m) of a swinging sole above the line between its ends, but near those."""
+
 DIP = 1e-3
 """A retargeted foot may come this much (m) below its landing before it lands."""
 
@@ -55,7 +58,7 @@ class Swing:
     lift: float
     land: float
     swing_height: float = 0.05
-    ground_clearance: float = 0.02
+    ground_clearance: float = GROUND_CLEARANCE
     shape: SwingShape = PLAIN
     plane: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
     vertical: tuple[Quintic, ...] = field(default=(), repr=False, kw_only=True)
@@ -75,28 +78,20 @@ class Swing:
             object.__setattr__(self, name, number_from_zero(getattr(self, name), name, "m"))
         instance_of(self.shape, SwingShape, "shape")
         first, last = _coordinates(self.start), _coordinates(self.end)
-        go, arrive = self._way(self.lift, self.land)
+        go, arrive = self.shape.way(self.lift, self.land)
         plane = tuple(
             Quintic.between(go, arrive, (p, 0.0, 0.0), (q, 0.0, 0.0))
             for p, q in zip(first, _near(last, first), strict=True)
         )
         z0, z1 = float(self.start[2, 3]), float(self.end[2, 3])
-        middle = self.lift + self.shape.apex * (self.land - self.lift)
+        middle = self.shape.top(self.lift, self.land)
         vertical = _over((self.lift, (z0, 0.0, 0.0)), (middle, self._apex(z0, z1)), (self.land, z1))
         object.__setattr__(self, "plane", plane)
         object.__setattr__(self, "vertical", vertical)
 
-    def _way(self, t: float, land: float) -> tuple[float, float]:
-        """Return when the way to a landing at time `land` (s) begins and ends, seen from t (s)."""
-        swing = land - self.lift
-        go, arrive = self.lift + self.shape.before * swing, land - self.shape.after * swing
-        # What is late travels until it lands.
-        return max(t, go), (arrive if arrive > max(t, go) + SMALLEST else land)
-
     def _apex(self, z0: float, z1: float) -> float:
         """Return the height (m) of the apex over soles at these two heights (m)."""
-        least = max(self.swing_height, self.shape.height, self.ground_clearance / RISEN_SHARE)
-        return max(z0, z1) + least
+        return apex_height(z0, z1, self.shape, self.swing_height, self.ground_clearance)
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
         """Return pose (4, 4), velocity (6,) and acceleration (6,) of the sole at time t (s).
@@ -175,7 +170,7 @@ class Swing:
         """Return the quintics of the plane from the present motion to another landing."""
         now = tuple(q.at(t) for q in self.plane)
         goal = _near(_coordinates(end), tuple(s[0] for s in now))
-        go, arrive = self._way(t, land)
+        go, arrive = self.shape.way(self.lift, land, t)
         plane = tuple(
             Quintic.between(go, arrive, s, (g, 0.0, 0.0)) for s, g in zip(now, goal, strict=True)
         )
@@ -215,6 +210,18 @@ class Swing:
         return _over((t, now), (piece.end, wait), (land, z1))
 
 
+def apex_height(
+    z0: float,
+    z1: float,
+    shape: SwingShape,
+    swing_height: float,
+    ground_clearance: float = GROUND_CLEARANCE,
+) -> float:
+    """Return the height (m) of a swing's apex over soles at z0 and z1 (m); see `Swing`."""
+    least = max(swing_height, shape.height, ground_clearance / RISEN_SHARE)
+    return max(z0, z1) + least
+
+
 def _overshoots(x: Quintic, y: Quintic) -> bool:
     """Return whether a planar path goes more than 1 % of its way beyond its end."""
     x1, y1 = sum(x.coefficients), sum(y.coefficients)
@@ -240,7 +247,7 @@ def swing_of(
     plan: FootstepPlan,
     step: Footstep,
     swing_height: float = 0.05,
-    ground_clearance: float = 0.02,
+    ground_clearance: float = GROUND_CLEARANCE,
 ) -> Swing:
     """Return the swing of one step of a plan, from where its foot stands.
 

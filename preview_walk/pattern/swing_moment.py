@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from preview_walk.constants import GRAVITY
+from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
-from preview_walk.geometry.planar import turn
-from preview_walk.pattern.swing import swing_of
+from preview_walk.pattern.swing import apex_height
 from preview_walk.types import Array, Foot
 
 
@@ -54,22 +54,58 @@ def swing_zmp_shift(
         swing_height: of the apex of a swing above the higher sole, m.
     """
     shift = np.zeros((len(times), 2))
-    for step in plan.steps:
-        first, last = np.searchsorted(times, (step.lift, step.land))
-        if last == first:
-            if step.lift > times[-1]:
-                break
-            continue
-        t = times[first:last]
-        swing = swing_of(plan, step, swing_height)
-        x, y = (swing.plane[axis].accelerations(t) for axis in (0, 1))
-        z = np.zeros(len(t))
-        for piece in swing.vertical:
-            inside = (t >= piece.start) & (t < piece.end)
-            z[inside] = piece.accelerations(t[inside])
-        yaw = step.yaw
-        ahead = turn(np.column_stack([x, y]), -yaw)
-        rate = np.column_stack([ahead, z]) @ model.foot[step.foot].T
-        shift[first:last] = turn(np.column_stack([-rate[:, 1], rate[:, 0]]), yaw)
+    begin, end = float(times[0]), float(times[-1])
+    steps = [step for step in plan.steps if step.land > begin and step.lift <= end]
+    if not steps:
+        return shift
+    table = np.array([_motion(plan, step, swing_height) for step in steps])
+    # The step that lands next at each time; in the air once it has lifted.
+    step = np.searchsorted(table[:, 1], times, side="right")
+    step[step == len(steps)] = 0
+    air = np.flatnonzero((times >= table[step, 0]) & (times < table[step, 1]))
+    step, t = step[air], times[air]
+    lift, land, go, arrive, top, dx, dy, up, down, yaw, left = table[step].T
+    rises = t < top
+    start = np.array((go, go, np.where(rises, lift, top)))
+    stop = np.array((arrive, arrive, np.where(rises, top, land)))
+    x, y, z = _accelerations(t, start, stop, np.array((dx, dy, np.where(rises, up, down))))
+    c, s = np.cos(yaw), np.sin(yaw)
+    ahead = np.array((c * x + s * y, c * y - s * x, z)).T
+    about_x, about_y, _ = np.where(
+        left, (ahead @ model.foot["left"].T).T, (ahead @ model.foot["right"].T).T
+    )
+    shift[air, 0] = -c * about_y - s * about_x
+    shift[air, 1] = c * about_x - s * about_y
     shift /= model.mass * GRAVITY
     return shift
+
+
+def _motion(plan: FootstepPlan, step: Footstep, swing_height: float) -> tuple[float, ...]:
+    """Return what the acceleration of a swing from rest to rest follows from.
+
+    Lift and landing, begin and end of the way, and the time at the apex, s; the way's x and y, and
+    its heights up to the apex and down from it, m; its yaw, rad; 1 for the left foot, 0 for the
+    right one.
+    """
+    start, end, shape = plan.start_pose(step), step.pose, step.swing
+    x0, y0, z0 = start[:3, 3].tolist()
+    x1, y1, z1 = end[:3, 3].tolist()
+    lift, land = step.lift, step.land
+    apex = apex_height(z0, z1, shape, swing_height)
+    return (
+        *(lift, land, *shape.way(lift, land), shape.top(lift, land)),
+        *(x1 - x0, y1 - y0, apex - z0, z1 - apex),
+        *(step.yaw, float(step.foot == "left")),
+    )
+
+
+def _accelerations(t: Array, start: Array, end: Array, way: Array) -> Array:
+    """Return the accelerations (k, N) at times t (N,) of quintics from rest to rest.
+
+    `start`, `end`, `way`: (k, N) times, s, and lengths, m; nothing moves before or after them.
+    """
+    h = end - start
+    u = (t - start) / h
+    moving: Array = way * u * (60.0 + u * (-180.0 + u * 120.0)) / (h * h)
+    moving[(u < 0.0) | (u > 1.0)] = 0.0
+    return moving

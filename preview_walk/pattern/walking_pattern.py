@@ -90,8 +90,8 @@ class WalkingPattern:
         return self._sampled.plan
 
     def follow(self, plan: FootstepPlan) -> None:
-        """Go on by another plan from the present planning tick; samples all that is left of it."""
-        # Sampled once per plan from this tick on; a tick only slides the window along.
+        """Go on by another plan from the present planning tick."""
+        # Sampled for some seconds from this tick on; a tick only slides the window along.
         self._sampled = sample_plan(plan, self._start, self._tick, self.model)
         times = self._sampled.times
         self._heights = np.zeros((len(times), 2))
@@ -135,6 +135,8 @@ class WalkingPattern:
         while t >= self._start + (self._tick + 1) * PLANNING_DT - 1e-9:
             self._tick += 1
             self._now, self._now_z = self._next, self._next_z
+            if not self._sampled.suffices(self._tick):
+                self.follow(self.plan)
             self._next, self._next_z = self._step()
         tau = min(max(t - self._start - self._tick * PLANNING_DT, 0.0), PLANNING_DT)
         state = self._generator.interpolate(self._now, self._next, tau)

@@ -11,7 +11,7 @@ import numpy as np
 from preview_walk.errors import InvalidInput
 from preview_walk.robots.load import spec_of
 from preview_walk.robots.robot import Robot
-from preview_walk.simulation.studs import FIELD, add_studs
+from preview_walk.simulation.studs import add_studs
 from preview_walk.terrain.ground import FlatGround, Ground
 from preview_walk.terrain.height_field import HeightField
 from preview_walk.terrain.slabs import Slab, SlabGround
@@ -85,9 +85,8 @@ def _add_field(spec: mujoco.MjSpec, field: HeightField) -> None:
         hfieldname="ground",
         pos=(field.x + half[0], field.y + half[1], low),
         rgba=COLOUR,
-        contype=FIELD,
+        contype=0,
         conaffinity=0,
-        condim=3,
     )
     add_studs(spec)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from preview_walk.arguments import instance_of
@@ -77,6 +76,5 @@ class RealWorld(World):
         data = self.data
         for _ in range(steps):
             data.ctrl[:] = self._drives.act(torques, data)[self._motor_joint]
-            self.push = self._pusher.apply(data.time, data)
-            mujoco.mj_step(self.model, data)
+            self._advance()
             self._instruments.sample(data)

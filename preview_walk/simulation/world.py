@@ -15,7 +15,9 @@ from preview_walk.robots.robot import Robot
 from preview_walk.robots.state import to_mujoco, to_pinocchio
 from preview_walk.simulation.ground_geoms import model_on
 from preview_walk.simulation.pushes import Push, Pusher
+from preview_walk.simulation.studs import Studs
 from preview_walk.terrain.ground import FlatGround, Ground
+from preview_walk.terrain.height_field import HeightField
 from preview_walk.types import FEET, Array, Foot
 
 FRICTION = 0.8
@@ -86,6 +88,7 @@ class World:
         self._sensors = {foot: WrenchSensor(self.model, sole_name(foot)) for foot in FEET}
         joints = self.model.actuator_trnid[:, 0]
         self._motor_joint = self.model.jnt_dofadr[joints] - 6
+        self._studs: Studs | None = None
         self._look_at_soles()
 
     def _look_at_soles(self) -> None:
@@ -116,6 +119,11 @@ class World:
     def place(self, q: Array, t: float) -> None:
         """Stand the robot still in configuration q (nq,) at time t (s): only before the run."""
         to_mujoco(q, np.zeros(self.model.nv), self.data.qpos, self.data.qvel)
+        if isinstance(self.ground, HeightField):
+            # Made here, for friction and softness of the soles are settled now.
+            self._studs = Studs(self.model, self.ground)
+            mujoco.mj_kinematics(self.model, self.data)
+            self._studs.follow(self.data)
         mujoco.mj_forward(self.model, self.data)
         self.data.time = t
 
@@ -130,5 +138,11 @@ class World:
         data = self.data
         data.ctrl[:] = torques[self._motor_joint]
         for _ in range(steps):
-            self.push = self._pusher.apply(data.time, data)
-            mujoco.mj_step(self.model, data)
+            self._advance()
+
+    def _advance(self) -> None:
+        """Go on by one step of the physics."""
+        self.push = self._pusher.apply(self.data.time, self.data)
+        if self._studs is not None:
+            self._studs.follow(self.data)
+        mujoco.mj_step(self.model, self.data)

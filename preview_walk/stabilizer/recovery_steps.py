@@ -45,7 +45,9 @@ def land_at(plan: FootstepPlan, t: float, pose: Array, land: float) -> FootstepP
     if later and not plan.is_stand(later[0].lift - step.land):
         delay -= max(0.0, later[0].lift - step.land - SHORT_PAUSE)
     move = pose[:3, 3] - step.pose[:3, 3]
-    return plan.retarget(t, pose, land).replace_after(t, _moved(later, move, delay))
+    # Without the later steps, which would be made anew twice.
+    landed = plan.replace_after(t, ()).retarget(t, pose, land)
+    return landed.replace_after(t, _moved(later, move, delay))
 
 
 def step_sooner(plan: FootstepPlan, t: float) -> FootstepPlan | None:

@@ -17,7 +17,6 @@ step takes up) in a box; all times are solved at once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp
 
 import numpy as np
@@ -25,6 +24,7 @@ import numpy as np
 from preview_walk.footsteps.footstep import Footstep
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.geometry.poses import compose, heading_of, pose_at
+from preview_walk.stabilizer.foothold import Room, Wanted, best_footholds
 from preview_walk.stabilizer.recovery_steps import SHORT_PAUSE, land_at
 from preview_walk.stabilizer.situation import Situation
 from preview_walk.stabilizer.step_limits import StepLimits
@@ -33,13 +33,9 @@ from preview_walk.types import Array, Foot, other
 TIMES = 40
 """Landing times that are compared."""
 
-OFFSET_WEIGHT, STEP_WEIGHT, TIME_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT = 100.0, 1.0, 0.2, 0.05, 2.0
-"""Squared metres of DCM offset, of foothold, squared seconds of landing time, squared metres of
-ZMP, and of the offset that the ZMP of the next step can carry: the rest of the offset comes first.
-"""
-
-KEEP_WEIGHT, KEEP_TIME = 2.0, 2.0
-"""Squared metres and seconds by which a changed step changes again: the foot cannot dither."""
+TIME_WEIGHT, KEEP_TIME = 0.2, 2.0
+"""Weights of a squared second of landing time beside the commanded one, and beside the present
+one, in the cost of `foothold`."""
 
 CARRY = 0.4
 """Share of the sole's half size of DCM offset that the next step carries by its ZMP."""
@@ -94,14 +90,14 @@ def adapt_step(situation: Situation, nominal: Footstep, limits: StepLimits) -> F
     land = _landing_times(t, step, nominal, float(position[2]), limits)
     here, speed = (position[:2] - origin) @ axes, velocity[:2] @ axes
     box = _reachable(step.foot, here, speed, (land - t)[:, None], limits)
-    wanted = (
+    wanted = Wanted(
         (nominal.pose[:2, 3] - origin) @ axes,
         (step.pose[:2, 3] - origin) @ axes,
         (situation.planned_dcm(middle) - step.pose[:2, 3]) @ axes,
     )
     tau = np.exp(limits.omega * (land + 0.5 * min(pause, SHORT_PAUSE) - t))[:, None]
-    room = _Room(box, _carried(limits, step.foot, wanted[2]), np.array(limits.zmp))
-    place, cost = _footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, room)
+    room = Room(box, _carried(limits, step.foot, wanted.offset), np.array(limits.zmp))
+    place, cost = best_footholds((dcm - origin) @ axes * tau, tau - 1.0, wanted, room)
     cost += TIME_WEIGHT * (land - nominal.land) ** 2 + KEEP_TIME * (land - step.land) ** 2
     best = int(np.argmin(cost))
 
@@ -163,54 +159,6 @@ def _reachable(
     low = np.array([-gait.backward, gait.min_width if side > 0 else -gait.max_width])
     high = np.array([gait.forward, gait.max_width if side > 0 else -gait.min_width])
     return np.clip(here - behind, low, high), np.clip(here + ahead, low, high)
-
-
-@dataclass(frozen=True, eq=False)
-class _Room:
-    """What an answer may use, in the stance foot's axes.
-
-    Attributes:
-        box: lowest and highest footholds, (N, 2) each, m.
-        carried: lowest and highest offset that the next step can catch, (2,) each, m.
-        half: (2,) largest shift of the ZMP, m.
-    """
-
-    box: tuple[Array, Array]
-    carried: tuple[Array, Array]
-    half: Array
-
-
-def _footholds(
-    free: Array, lever: Array, wanted: tuple[Array, Array, Array], room: _Room
-) -> tuple[Array, Array]:
-    """Return the best foothold (N, 2) of each landing time and its cost (N,).
-
-    The DCM lands at free - lever delta = foothold + offset + carry + miss; the miss costs most.
-
-    Args:
-        free: (N, 2) where the DCM is at landing with the ZMP at the stance foot's centre (m).
-        lever: (N, 1) how far a ZMP 1 m from there moves it (m).
-        wanted: (2,) each: the commanded foothold, the present one, and the DCM's offset from it.
-        room: what may be used.
-    """
-    goal, current, offset = wanted
-    delta, carry = np.zeros_like(free), np.zeros_like(free)
-    w, s, z, c, k = OFFSET_WEIGHT, STEP_WEIGHT, ZMP_WEIGHT, CARRY_WEIGHT, KEEP_WEIGHT
-    for _ in range(30):  # coordinate descent: convex, three variables, a box
-        place = np.clip(
-            (w * (free - lever * delta - offset - carry) + s * goal + k * current) / (w + s + k),
-            *room.box,
-        )
-        delta = np.clip(
-            w * lever * (free - offset - carry - place) / (w * lever * lever + z),
-            -room.half,
-            room.half,
-        )
-        carry = np.clip(w * (free - lever * delta - offset - place) / (w + c), *room.carried)
-    miss = free - lever * delta - offset - carry - place
-    cost = (c * carry**2 + w * miss**2 + s * (place - goal) ** 2 + z * delta**2).sum(axis=1)
-    cost += k * ((place - current) ** 2).sum(axis=1)
-    return place, cost
 
 
 def _carried(limits: StepLimits, foot: Foot, offset: Array) -> tuple[Array, Array]:

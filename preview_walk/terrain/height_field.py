@@ -123,16 +123,23 @@ class HeightField:
 
     def height(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the height (m) at x and y (world, m); see `Ground`."""
-        corner, ahead, left, (u, w), inside = self._cells(x, y)
-        heights: Array = np.where(inside, corner + ahead * u + left * w, self.floor)
+        heights, _, _ = self.planes(np.asarray(x), np.asarray(y))
         return heights
+
+    def planes(self, x: Array, y: Array) -> tuple[Array, Array, Array]:
+        """Return the planes of the triangles at x and y (N,), world, m.
+
+        Their heights there, m, and what they rise per m along the world's x and y, (N,) each.
+        """
+        corner, ahead, left, (u, w), inside = self._cells(x, y)
+        heights = np.where(inside, corner + ahead * u + left * w, self.floor)
+        per_metre = np.where(inside, 1.0 / self.spacing, 0.0)
+        return heights, ahead * per_metre, left * per_metre
 
     def normal(self, x: float, y: float) -> Array:
         """Return the unit normal (3,) of the triangle at x, y (world, m)."""
-        _, ahead, left, _, inside = self._cells(x, y)
-        if not inside:
-            return np.array((0.0, 0.0, 1.0))
-        normal = np.array((-float(ahead) / self.spacing, -float(left) / self.spacing, 1.0))
+        _, ahead, left = self.planes(np.array([x]), np.array([y]))
+        normal = np.array((-float(ahead[0]), -float(left[0]), 1.0))
         normal /= np.linalg.norm(normal)
         return normal
 

@@ -223,8 +223,8 @@ def test_the_dcm_lands_where_the_plan_has_it_from_its_foot(sideways: float):
     time = changed.land + 0.5 * SHORT_PAUSE - t
     landed = stance + (pushed - stance) * np.exp(OMEGA * time)
     offset, wanted = landed - changed.pos[:2], dcm[1] - step.pos[:2]
-    # What the ZMP and the next step take up leaves 10 and 24 mm.
-    assert abs(offset[0] - wanted[0]) < 0.03
+    # The ZMP, which is moved by 10 mm at the optimum, and the next step take up 17 and 32 mm.
+    assert abs(offset[0] - wanted[0]) < 0.035
 
 
 def test_the_next_step_catches_what_falls_to_the_side_where_it_lands():

@@ -25,10 +25,17 @@ PREVIEW_TIME = 1.6
 AHEAD = round(PREVIEW_TIME / PLANNING_DT)
 """Planning ticks that a generator looks ahead."""
 
+SPAN = 800
+"""Planning ticks that are sampled at a time, beside those that are looked ahead."""
+
+RENEWAL = SPAN // 2
+"""With fewer ticks left of them the next ones are sampled. The ZMP that is not yet sampled moves
+the DCM by less than exp(-omega (PREVIEW_TIME + RENEWAL dt)) of itself: some micrometres."""
+
 
 @dataclass(frozen=True, eq=False)
 class SampledPlan:
-    """What a plan asks for at every planning tick from one on; past the end the last sample holds.
+    """What a plan asks for at the planning ticks from one on; past its end the last sample holds.
 
     Attributes:
         plan: the footsteps.
@@ -40,6 +47,7 @@ class SampledPlan:
         shift: (M, 2) the part of it that the swinging legs' momentum gives, m.
         zmp: (M, 2) the part left for the cart-table, m.
         dcm: (M, 2) the DCM that goes with that ZMP held over each sample, m.
+        rest: planning ticks of the plan after the last sample; 0 where all of it is sampled.
     """
 
     plan: FootstepPlan
@@ -51,6 +59,7 @@ class SampledPlan:
     shift: Array
     zmp: Array
     dcm: Array
+    rest: int
 
     @cached_property
     def dcm_of_lines(self) -> Array:
@@ -70,6 +79,10 @@ class SampledPlan:
     def supports(self) -> Supports:
         """Where the ZMP may be at each sample."""
         return Supports(self.plan, self.sole, self.times)
+
+    def suffices(self, tick: int) -> bool:
+        """Return whether enough of the plan is sampled for a planning tick."""
+        return not self.rest or tick - self.first <= SPAN - RENEWAL
 
     def index(self, tick: int) -> int:
         """Return the sample of a planning tick."""
@@ -94,7 +107,7 @@ class SampledPlan:
 
 
 def sample_plan(plan: FootstepPlan, start: float, tick: int, model: WalkerModel) -> SampledPlan:
-    """Return a plan sampled from a planning tick to its end, and as far again as one looks ahead.
+    """Return a plan sampled from a planning tick on, as far as one looks ahead and `SPAN` more.
 
     Args:
         plan: the footsteps.
@@ -102,10 +115,21 @@ def sample_plan(plan: FootstepPlan, start: float, tick: int, model: WalkerModel)
         tick: the first one to sample.
         model: of the robot.
     """
-    rest = max(0, int(np.ceil((plan.end - start) / PLANNING_DT)) - tick)
-    times: Array = start + PLANNING_DT * np.arange(tick, tick + rest + AHEAD + 2, dtype=np.float64)
-    reference = zmp_reference(plan, model.sole).at(times)
-    shift = swing_zmp_shift(plan, times, model.momentum, model.swing_height)
+    left = max(0, int(np.ceil((plan.end - start) / PLANNING_DT)) - tick)
+    span = min(left, SPAN)
+    times: Array = start + PLANNING_DT * np.arange(tick, tick + span + AHEAD + 2, dtype=np.float64)
+    near = _within(plan, float(times[0]), float(times[-1]))
+    reference = zmp_reference(near, model.sole).at(times)
+    shift = swing_zmp_shift(near, times, model.momentum, model.swing_height)
     zmp = reference - shift
     dcm = planned_dcm(zmp, model.omega * PLANNING_DT)
-    return SampledPlan(plan, model.sole, tick, times, model.omega, reference, shift, zmp, dcm)
+    rest = max(0, left - span - AHEAD)
+    return SampledPlan(plan, model.sole, tick, times, model.omega, reference, shift, zmp, dcm, rest)
+
+
+def _within(plan: FootstepPlan, begin: float, end: float) -> FootstepPlan:
+    """Return the part of a plan that says what is asked for between two times, s."""
+    following = plan.next_lift(end)
+    if following is not None:  # kept, for the ZMP goes to the foot that bears it
+        plan = plan.replace_after(following.lift, ())
+    return plan.since(begin)

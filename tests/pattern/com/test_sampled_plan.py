@@ -1,10 +1,20 @@
 """A sampled plan: the DCM of a ZMP that runs straight, windows past the end."""
 
 import numpy as np
+import pytest
 from scipy.integrate import solve_ivp
 from walker_stand_in import MODEL, slow_walk
 
-from preview_walk.pattern.com.sampled_plan import AHEAD, PLANNING_DT, sample_plan
+from preview_walk.pattern.com.sampled_plan import (
+    AHEAD,
+    PLANNING_DT,
+    RENEWAL,
+    SPAN,
+    sample_plan,
+)
+from preview_walk.pattern.dcm import planned_dcm
+from preview_walk.pattern.swing_moment import swing_zmp_shift
+from preview_walk.pattern.zmp_reference import zmp_reference
 
 SAMPLED = sample_plan(slow_walk(3), 0.0, 0, MODEL)
 
@@ -39,6 +49,27 @@ def test_past_the_end_the_last_sample_holds() -> None:
 
 def test_sampled_later_it_is_the_same() -> None:
     later = sample_plan(slow_walk(3), 0.0, 200, MODEL)
-    assert np.abs(later.zmp - SAMPLED.zmp[200:]).max() < 1e-12
-    assert np.abs(later.dcm_of_lines - SAMPLED.dcm_of_lines[200:]).max() < 1e-12
+    both = len(SAMPLED.zmp) - 200
+    assert np.abs(later.zmp[:both] - SAMPLED.zmp[200:]).max() < 1e-12
+    assert np.abs(later.dcm_of_lines[:both] - SAMPLED.dcm_of_lines[200:]).max() < 1e-12
     assert np.abs(later.planned_dcm(250.3) - SAMPLED.planned_dcm(250.3)).max() < 1e-12
+
+
+@pytest.mark.parametrize("tick", [0, 1234, 4000])
+def test_a_part_of_a_long_plan_is_that_part_of_the_whole(tick: int) -> None:
+    plan = slow_walk(30)
+    part = sample_plan(plan, 0.0, tick, MODEL)
+    times = PLANNING_DT * np.arange(tick, int(plan.end / PLANNING_DT) + 400)
+    shift = swing_zmp_shift(plan, times, MODEL.momentum, MODEL.swing_height)
+    zmp = zmp_reference(plan, MODEL.sole).at(times) - shift
+    many = min(len(part.zmp), len(zmp))
+    assert len(part.zmp) == SPAN + AHEAD + 2
+    assert np.abs(part.zmp - zmp[:many]).max() < 1e-12
+    assert part.suffices(tick + SPAN - RENEWAL)
+    assert not part.suffices(tick + SPAN - RENEWAL + 1)
+    dcm = planned_dcm(zmp, MODEL.omega * PLANNING_DT)
+    assert np.abs(part.dcm - dcm[:many])[: SPAN - RENEWAL].max() < 1e-5
+
+
+def test_the_end_of_a_plan_needs_no_more_samples() -> None:
+    assert sample_plan(slow_walk(3), 0.0, 500, MODEL).suffices(10**6)
