@@ -27,6 +27,7 @@ SERVICES = {
     "files",
     "html",
     "offscreen",
+    "stopping",
     "threads",
     "types",
 }

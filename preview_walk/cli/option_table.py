@@ -243,7 +243,7 @@ FLAGS = {
     "--blind": "the robot takes the --ground for level and feels its way",
     "--no-plots": "write record.npz and summary.json only (and walk.mp4 where it is asked for)",
     "--video": "write walk.mp4 too; needs no screen",
-    "--view": "show the walk live; needs a screen; the mouse can push the robot",
+    "--view": "show the walk live; needs a screen; arrow keys steer, the mouse pushes",
     "--web": "show the walk live in the browser, to be steered and pushed; writes walk.html too",
     "--json": "print the figures as JSON in place of the table",
     "--quiet": "print nothing but errors",

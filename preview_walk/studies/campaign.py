@@ -16,12 +16,12 @@ from preview_walk.errors import InvalidInput
 from preview_walk.extras import require
 from preview_walk.files import as_path, short
 from preview_walk.record.recorder import package_versions
+from preview_walk.stopping import Stop
 from preview_walk.studies.case import Case
 from preview_walk.studies.engine import rows_of
 from preview_walk.studies.journal import RECORDS, Journal, read_facts, read_rows
 from preview_walk.studies.pools import ClusterPool, LocalPool, Pool
 from preview_walk.studies.results import Results
-from preview_walk.studies.stopping import Stop
 from preview_walk.studies.work import Campaign
 
 _MUST_AGREE = ("function", "source", "metrics", "seed", "margin")

@@ -1,4 +1,4 @@
-"""Ctrl-C in a study: noted at once, obeyed where a pool is at rest."""
+"""Ctrl-C where it must not strike at any moment: noted at once, obeyed where it does no harm."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ _SIGNALS = [
 
 
 class Stop:
-    """Whether a signal asked the study to stop, in a `with` block of the main thread.
+    """Whether a signal asked to stop, in a `with` block of the main thread.
 
     A handler that was there before hears the signal too; the `KeyboardInterrupt` that it raises is
-    kept back the first time, for it could be raised while a pool holds its locks. A second signal
-    is raised.
+    kept back the first time, for it could be raised while a pool of processes holds its locks, or
+    a window is half open. A second signal is raised.
 
     Attributes:
         asked: whether a signal came.
