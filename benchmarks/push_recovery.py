@@ -17,6 +17,8 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterator
+from copy import deepcopy
+from functools import lru_cache
 from math import cos, nan, radians, sin
 from typing import Any, get_args
 
@@ -46,6 +48,17 @@ def pushed(
     robot: str, stance: str, share: float | None, angle: int, impulse: float, *, body: str = ""
 ) -> pw.Record:
     """Return the record of a walk with a push of this impulse (N·s) on a body, else the base."""
+    walk, begin = unpushed(robot, stance, share)
+    force, mirror = impulse / PUSH_TIME, 1.0 if stance == "left" else -1.0
+    along = (force * cos(radians(angle)), mirror * force * sin(radians(angle)), 0.0)
+    walk = deepcopy(walk)
+    walk.plant.add_push(pw.Push(begin, PUSH_TIME, along, body or None))
+    return walk.run(until=begin + PUSH_TIME + AFTER).record()
+
+
+@lru_cache(maxsize=1)
+def unpushed(robot: str, stance: str, share: float | None) -> tuple[pw.Walk, float]:
+    """Return a walk a moment before its push, whose time (s) it returns too; one to copy."""
     whole = pw.loaded_robot(robot)
     gait = GAITS[robot.upper()]
     step_time = gait.single_support + gait.double_support
@@ -58,10 +71,7 @@ def pushed(
     if share is not None:
         step = [s for s in plan.steps if s.foot == other(foot)][1]
         begin = step.lift + share * (step.land - step.lift)
-    force, mirror = impulse / PUSH_TIME, 1.0 if foot == "left" else -1.0
-    along = (force * cos(radians(angle)), mirror * force * sin(radians(angle)), 0.0)
-    walk = pw.Walk(whole, plan, pushes=[pw.Push(begin, PUSH_TIME, along, body or None)])
-    return walk.run(until=begin + PUSH_TIME + AFTER).record()
+    return pw.Walk(whole, plan).run(until=begin - 0.05), begin
 
 
 def cells(robot: str, shares: list[float | None], angles: list[int]) -> Iterator[Cell]:
