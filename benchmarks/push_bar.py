@@ -22,7 +22,8 @@ from typing import Any
 
 from campaign import make_parser, run
 from push_bound_table import GAITS
-from push_recovery import ANGLES, SHARES, Cell, cells, pushed
+from push_recovery import ANGLES, SHARES, Cell, cells
+from push_walks import pushed
 
 import preview_walk as pw
 from preview_walk import largest_impulse
