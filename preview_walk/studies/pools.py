@@ -70,10 +70,24 @@ class LocalPool:
         return future
 
     def broken_by(self, error: BaseException) -> bool:
-        """Return whether a worker ended, which ends loky's pool."""
+        """Return whether a worker ended, which ends loky's pool.
+
+        Raises:
+            InvalidInput: it ended because it cannot read what it is to do, as no other could.
+        """
         from concurrent.futures.process import BrokenProcessPool
 
-        return isinstance(error, BrokenProcessPool)
+        if not isinstance(error, BrokenProcessPool):
+            return False
+        if error.__cause__ is not None:  # what a worker raised before it had a case to blame
+            why = str(error.__cause__).strip().rstrip('"').strip().splitlines()[-1]
+            why = why.split(" on <module")[0]
+            raise InvalidInput(
+                f"the workers cannot read the study's function: {why}; what it calls must be "
+                "importable, or defined beside it without a cache or another wrapper.",
+                argument="function",
+            )
+        return True
 
     def renew(self) -> None:
         """Start other processes."""

@@ -193,3 +193,26 @@ def test_a_study_that_cannot_be_is_refused(given: dict[str, Any], sentence: str)
 def test_what_does_not_pickle_is_refused_before_a_worker_starts(tmp_path: Path) -> None:
     with (tmp_path / "open").open("w") as file, pytest.raises(pw.InvalidInput, match="must pickle"):
         run(pw.Study({"x": [1]}, lambda x: file.closed), tmp_path / "out")
+
+
+def test_a_function_that_the_workers_cannot_read_is_told_at_once(tmp_path: Path) -> None:
+    """A cache is sent by its name, in a module that no worker has: every case would be "killed"."""
+    script = tmp_path / "cached.py"
+    script.write_text(
+        "from functools import lru_cache\n"
+        "import preview_walk as pw\n"
+        "@lru_cache\n"
+        "def helper(x): return x\n"
+        "def f(x): return {'y': helper(x)}\n"
+        "if __name__ == '__main__':\n"
+        "    pw.Study({'x': [1.0, 2.0]}, f).run('out', jobs=1, progress=False)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(script)], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.stderr.strip().splitlines()[-1] == (
+        "preview_walk.errors.InvalidInput: the workers cannot read the study's function: "
+        "AttributeError: Can't get attribute 'helper'; what it calls must be importable, or "
+        "defined beside it without a cache or another wrapper."
+    )
+    assert not [*pw.read_results(tmp_path / "out").table.index]
