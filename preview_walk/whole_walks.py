@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol, TypedDict
 
@@ -38,6 +39,8 @@ class Settings(TypedDict, total=False):
     ground: Ground | None
     blind: bool
     realism: Realism | None
+    record_hz: float | None
+    blocks: str | os.PathLike[str] | None
     on_tick: Callable[[Walk], None] | None
 
 

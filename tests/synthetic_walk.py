@@ -76,7 +76,7 @@ def walk_record(
     """Return a record of the walk, 200 ticks a second, ending 0.5 s after the plan."""
     plan = plan or walk_plan(n_steps, start)
     run = RunFacts.from_dict({**FACTS, **settings})
-    recorder = Recorder(run, {"nq": 10, "nv": 9, "nu": 3}, capacity=64)
+    recorder = Recorder(run, {"nq": 10, "nv": 9, "nu": 3}, room=64)
     recorder.plan(0.0, plan)
     for i in range(round((plan.end + 0.5) / DT)):
         recorder.write(**_row(plan, start, n_steps, i * DT))

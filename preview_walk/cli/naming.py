@@ -30,6 +30,7 @@ OPTION_OF = {
     "seed": "--seed",
     "physics_hz": "--physics-hz",
     "control_hz": "--control-hz",
+    "record_hz": "--record-hz",
     "solver": "--solver",
     "com_generator": "--com-generator",
     "realism": "--realism",

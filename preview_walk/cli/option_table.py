@@ -198,6 +198,12 @@ OPTIONS = (
         "preview control (default), Wieber's ZMP MPC or the plan's DCM leads the CoM",
     ),
     Option(
+        "--record-hz",
+        "HZ",
+        number("rows per second above 0 and up to 1e5", lambda x: 0.0 < x <= 1e5),
+        "rows of the record per second (default: one a tick); for long walks",
+    ),
+    Option(
         "--swing-height",
         "M",
         number("a height in metres from 0 to 1", lambda x: 0.0 <= x <= 1.0),

@@ -48,6 +48,7 @@ class Options:
         port: of the page that `web` asks for.
         footsteps: file of footsteps to walk along; None: those of the options.
         swing_height, com_height: m; None: the robot's own.
+        record_hz: rows of the record per second; None: one a tick.
         json, quiet: what is printed.
         config: the options given, as the text of a TOML file that gives them again.
         list_robots: print the catalogue, do not walk.
@@ -84,6 +85,7 @@ class Options:
     footsteps: str | None = None
     swing_height: float | None = None
     com_height: float | None = None
+    record_hz: float | None = None
     json: bool = False
     quiet: bool = False
     config: str = ""
@@ -133,6 +135,7 @@ def parse(argv: Sequence[str] | None = None) -> Options:
         footsteps=found.footsteps,
         swing_height=found.swing_height,
         com_height=found.com_height,
+        record_hz=found.record_hz,
         json=found.json,
         quiet=found.quiet,
         config=config_text(vars(found)),

@@ -15,6 +15,9 @@ from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 
 RECORD, SUMMARY, OVERVIEW = "record.npz", "summary.json", "walk.png"
+BLOCKS = "record.blocks"
+"""Folder of the record while the walk goes; what a killed walk leaves."""
+
 FILM, PAGE, CONFIG = "walk.mp4", "walk.html", "run.toml"
 Writers = Mapping[str, Callable[[Path], object]]
 """What writes each file, by its name."""

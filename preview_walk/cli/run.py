@@ -15,11 +15,19 @@ from preview_walk.cli.naming import naming
 from preview_walk.cli.option_table import PUSH_TIME
 from preview_walk.cli.options import Options
 from preview_walk.cli.progress import progress_bar
-from preview_walk.cli.results import CONFIG, result_names, write_results, writers_of
+from preview_walk.cli.results import (
+    BLOCKS,
+    CONFIG,
+    RECORD,
+    result_names,
+    write_results,
+    writers_of,
+)
 from preview_walk.cli.streams import complain, emphasised, say
 from preview_walk.errors import InvalidInput
 from preview_walk.files import claimed, make_folder, whole_file
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.record.blocks import remove_blocks
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push, random_pushes
@@ -78,6 +86,8 @@ def _write(record: Record, robot: Robot, options: Options, interruption: Interru
     written, failure = write_results(options.out, figures, pictures, interruption)
     if not options.quiet and not options.json:
         say(f"Written to {options.out}: {', '.join(written) or 'nothing'}")
+    if RECORD in written:
+        remove_blocks(options.out / BLOCKS)
     if failure is not None:
         raise failure
     if len(written) < len(figures) + len(pictures):
@@ -114,6 +124,8 @@ def _walk(
         "com_generator": options.com_generator,
         "swing_height": options.swing_height,
         "com_height": options.com_height,
+        "record_hz": options.record_hz,
+        "blocks": options.out / BLOCKS,
     }
     with naming("--robot"), progress_bar(shown=not options.quiet) as show:
 

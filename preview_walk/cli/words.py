@@ -17,12 +17,15 @@ from preview_walk.cli.values import text, whole
 DONE, BAD_INPUT = 0, 2
 """Exit codes."""
 
+RECORD = "record.npz of a walk, or the record.blocks of a killed one"
+"""What a record's path may be, as the help has it."""
+
 
 def replay(arguments: Sequence[str], interruption: Interruption) -> int:
     """Play a record in the browser, or write it as a page or a film; return the exit code."""
     parser = WordParser("preview-walk replay", description="Play a record.", allow_abbrev=False)
     file = text("the name of a file")
-    parser.add_argument("record", type=file, help="record.npz of a walk")
+    parser.add_argument("record", type=file, help=RECORD)
     parser.add_argument("--html", metavar="FILE", type=file, help="write one page instead")
     parser.add_argument("--video", metavar="FILE", type=file, help="write a film instead")
     parser.add_argument("--robot", metavar="PATH", type=file, help="if it is not in the catalogue")
@@ -50,7 +53,7 @@ def plot(arguments: Sequence[str], interruption: Interruption) -> int:
     """Print a record's figures and write its plots; return the exit code."""
     parser = WordParser("preview-walk plot", description="Draw a record.", allow_abbrev=False)
     file = text("the name of a file")
-    parser.add_argument("record", type=file, help="record.npz of a walk")
+    parser.add_argument("record", type=file, help=RECORD)
     parser.add_argument("--out", metavar="DIR", type=file, help="folder (default: the record's)")
     given = parser.parse_args(list(arguments))
     import preview_walk as pw

@@ -29,9 +29,19 @@ EXPANSION = 200.0
 
 
 def write_file(
-    path: str | os.PathLike[str], facts: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]
+    path: str | os.PathLike[str],
+    facts: Mapping[str, Any],
+    arrays: Mapping[str, NDArray[Any]],
+    *,
+    compress: bool = True,
 ) -> Path:
     """Write facts (plain JSON values) and arrays to one file, whole or not at all.
+
+    Args:
+        path: of the file.
+        facts: of the run.
+        arrays: by name.
+        compress: as small as is quickly done; else as quickly as can be.
 
     Raises:
         OutputError: the file cannot be written.
@@ -39,12 +49,12 @@ def write_file(
     text = np.array(json.dumps({"format": FORMAT, **facts}))
     with (
         whole_file(path) as part,
-        zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive,
+        zipfile.ZipFile(part, "w", compresslevel=1) as archive,
     ):
         for name, array in {FACTS: text, **arrays}.items():
             # ZipInfo's fixed date: the same record makes the same file.
             entry = zipfile.ZipInfo(f"{name}.npy")
-            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.compress_type = zipfile.ZIP_DEFLATED if compress else zipfile.ZIP_STORED
             with archive.open(entry, "w", force_zip64=True) as file:
                 np.lib.format.write_array(file, np.asarray(array, order="C"), allow_pickle=False)
     return Path(path)

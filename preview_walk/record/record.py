@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from preview_walk.errors import InvalidInput
-from preview_walk.files import whole_file
+from preview_walk.files import is_folder, whole_file
 from preview_walk.html import html_table
+from preview_walk.record.blocks import read_blocks
 from preview_walk.record.fields import FIELDS, Ticks
 from preview_walk.record.file import read_file, write_file
 from preview_walk.record.mujoco_state import mujoco_qpos, mujoco_qvel
@@ -80,7 +81,7 @@ class Record(ReadOnlyArrays, Ticks):
 
     @property
     def dt(self) -> float:
-        """Control period in s."""
+        """Time between two rows, s: the control period, unless a rate was chosen."""
         return self.run.dt
 
     @property
@@ -198,14 +199,15 @@ class Record(ReadOnlyArrays, Ticks):
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Record:
-        """Read a record written by `save`.
+        """Read a record written by `save`, or the folder of blocks that a killed run left.
 
         Raises:
             InvalidInput: the file is missing, is no record, is damaged, has a newer format, or
                 would take memory out of proportion to its size.
         """
         more = [PREFIX + name for name in SENSED]
-        facts, arrays = read_file(path, [*FIELDS, *PLAN_ARRAYS], optional=more)
+        read = read_blocks if is_folder(path) else read_file
+        facts, arrays = read(path, [*FIELDS, *PLAN_ARRAYS], more)
         try:
             ticks = {name: arrays[name] for name in FIELDS}
             run, plans = RunFacts.from_dict(facts), PlanLog.from_arrays(arrays)

@@ -35,6 +35,7 @@ class RunFacts:
         com_generator: what led the CoM along the plan: "preview", "mpc" or "dcm".
         swing_height: of the swing foot's apex above the ground, m.
         control_hz: ticks of the controller per second.
+        record_hz: rows of the record per second; nan: one at every tick.
         physics_hz: steps of the physics per second.
         friction: Coulomb friction between soles and floor.
         ground: what was walked on, as plain values; `Record.ground` makes it one again.
@@ -72,6 +73,7 @@ class RunFacts:
     omega: float = nan
     com_generator: str = ""
     swing_height: float = nan
+    record_hz: float = nan
     physics_hz: float = nan
     friction: float = nan
     ground: Mapping[str, Any] = ReadOnlyMapping({})
@@ -118,8 +120,8 @@ class RunFacts:
 
     @property
     def dt(self) -> float:
-        """Control period, s."""
-        return 1.0 / self.control_hz
+        """Time between two rows of the record, s: a control period, or that of `record_hz`."""
+        return 1.0 / (self.record_hz if self.record_hz > 0.0 else self.control_hz)
 
     @property
     def weight(self) -> float:

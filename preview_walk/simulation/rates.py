@@ -34,6 +34,29 @@ def steps_per_tick(physics_hz: float, control_hz: float) -> int:
     return steps
 
 
+def ticks_per_row(control_hz: float, record_hz: float | None) -> int:
+    """Return of how many control ticks a record keeps one row.
+
+    Args:
+        control_hz: ticks of the controller per second.
+        record_hz: rows per second; None: one at every tick.
+
+    Raises:
+        InvalidInput: the rate is not positive, or there is no whole number of ticks in a row.
+    """
+    if record_hz is None:
+        return 1
+    record_hz = finite_number(record_hz, "record_hz", "per second")
+    ticks = round(control_hz / record_hz) if record_hz >= SMALLEST else 0
+    if ticks < 1 or abs(ticks * record_hz / control_hz - 1.0) > 1e-9:
+        raise InvalidInput(
+            f"record_hz must be control_hz, {control_hz:g}, over a whole number, "
+            f"got {record_hz:g}.",
+            "record_hz",
+        )
+    return ticks
+
+
 def require_rates(physics_hz: float, control_hz: float, gains: TrackingGains) -> None:
     """Do nothing if the robot can be balanced at these rates.
 

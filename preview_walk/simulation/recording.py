@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import asdict
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -15,6 +17,7 @@ from preview_walk.record.recorder import Recorder, package_versions
 from preview_walk.record.run_facts import RunFacts
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.simulation.plant import Plant
+from preview_walk.simulation.rates import ticks_per_row
 from preview_walk.simulation.real_world import RealWorld
 from preview_walk.simulation.seeing import EstimatedSight, PerfectSight
 from preview_walk.terrain.facts import facts_of
@@ -60,6 +63,10 @@ class WalkRecorder:
         plant: Plant,
         walker: Walker,
         sight: PerfectSight | EstimatedSight,
+        *,
+        control_hz: float,
+        record_hz: float | None = None,
+        blocks: str | os.PathLike[str] | None = None,
         **facts: Any,
     ) -> None:
         """Note what the run is made of.
@@ -68,16 +75,29 @@ class WalkRecorder:
             plant: what is sensed and driven.
             walker: the controller.
             sight: what it sees of the plant.
-            facts: control_hz, seed, solver.
+            control_hz: ticks of the controller per second.
+            record_hz: rows per second; None: one at every tick.
+            blocks: folder that the rows are written to as they come; None: none.
+            facts: seed, solver.
+
+        Raises:
+            InvalidInput: a rate of rows that does not fit to that of ticks.
+            OutputError: the folder cannot be made or written to.
         """
+        self._every, self._ticks = ticks_per_row(control_hz, record_hz), 0
+        facts["record_hz"] = nan if self._every == 1 else control_hz / self._every
         self._plant, self._walker, self._sight = plant, walker, sight
         model = plant.robot.pin
         sizes = {"nq": model.nq, "nv": model.nv, "nu": model.nv - 6}
-        self._recorder = Recorder(run_facts(plant, walker, **facts), sizes)
+        run = run_facts(plant, walker, control_hz=control_hz, **facts)
+        self._recorder = Recorder(run, sizes, blocks=blocks)
 
     def write(self, t: float, torques: Array, spent: float) -> None:
         """Note the tick at time t (s) that sent `torques` (n,), N·m, after `spent` seconds."""
         self._recorder.plan(t, self._walker.plan)
+        self._ticks += 1
+        if (self._ticks - 1) % self._every:
+            return
         self._recorder.write(**tick_row(t, self._plant, self._walker, torques, spent))
         if isinstance(self._sight, EstimatedSight):
             self._recorder.sensed(**self._sight.row())

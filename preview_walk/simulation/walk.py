@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Any
@@ -79,6 +80,8 @@ class Walk(Steered):
         ground: Ground | None = None,
         blind: bool = False,
         realism: Realism | None = None,
+        record_hz: float | None = None,
+        blocks: str | os.PathLike[str] | None = None,
     ) -> None:
         """Stand the robot on the plan's first soles.
 
@@ -101,6 +104,10 @@ class Walk(Steered):
             ground: what the robot stands on; None is level. All plans are laid on it (`lay_on`).
             blind: whether the walker takes the ground for level, whatever it is, and feels its way.
             realism: what is not perfect about sensors, motors and model; None: nothing.
+            record_hz: rows of the record per second, control_hz over a whole number; None: one at
+                every tick. What a summary says of ticks is then of those that have a row.
+            blocks: folder that the record is written to as the walk goes, a block every 5 s, so
+                that a killed process leaves it (`Record.load` reads the folder); None: none.
 
         Raises:
             InvalidInput: a value that cannot be, a plan on which the robot cannot stand, or beside
@@ -116,24 +123,18 @@ class Walk(Steered):
         self._substeps = steps_per_tick(rate, control_hz)
         require_rates(rate, control_hz, gains)
         self._dt = 1.0 / control_hz
-        self.walker = stand(
-            self.plant,
-            plan,
-            blind is True,
-            gains=gains,
-            solver=solver,
-            swing_height=swing_height,
-            com_generator=com_generator,
-        )
+        ways: dict[str, Any] = {"swing_height": swing_height, "com_generator": com_generator}
+        self.walker = stand(self.plant, plan, blind is True, gains=gains, solver=solver, **ways)
         self._sight = sight_of(self.plant, self.walker, self._dt)
         self.limits = command_limits(self.robot)
         self._commands = VelocityCommands(self.limits, self._dt)
         self._on_tick = function_of(on_tick, "on_tick")
         self._requests, self._retuned = Requests(), []
-        self._start, self._tick, self._wall, self._interrupted = plan.start, 0, 0.0, False
-        self._fall: tuple[float, str] | None = None
+        self._start, self._tick, self._wall = plan.start, 0, 0.0
+        self._interrupted, self._fall = False, None
+        facts: dict[str, Any] = {"control_hz": control_hz, "seed": seed, "solver": solver}
         self._recorder = WalkRecorder(
-            self.plant, self.walker, self._sight, control_hz=control_hz, seed=seed, solver=solver
+            self.plant, self.walker, self._sight, record_hz=record_hz, blocks=blocks, **facts
         )
 
     @classmethod
@@ -243,6 +244,7 @@ class Walk(Steered):
 
     def record(self) -> Record:
         """Return the record of the run so far."""
-        return self._recorder.finish(
-            self._fall, self._interrupted, wall_time=self._wall, retuned=tuple(self._retuned)
-        )
+        with self._requests:
+            return self._recorder.finish(
+                self._fall, self._interrupted, wall_time=self._wall, retuned=tuple(self._retuned)
+            )

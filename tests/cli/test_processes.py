@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -256,3 +257,28 @@ def test_two_runs_in_one_folder(start: Start, tmp_path: Path) -> None:
     first.communicate(timeout=60)
     assert start("--no-plots").wait(60) == 0
     assert files(tmp_path / "walk") == {"record.npz", "summary.json", "run.toml"}
+
+
+def test_a_killed_walk_leaves_its_record_and_the_next_takes_its_place(tmp_path: Path) -> None:
+    """The real command, killed after its first block; then walked to the end in the same folder."""
+    here = str(Path(__file__).parents[2])
+    command = [sys.executable, "-m", "preview_walk", "--quiet", "--no-plots"]
+    how = {"cwd": tmp_path, "env": {**os.environ, "PYTHONPATH": here}}
+    process = subprocess.Popen([*command, "--steps", "40", "--record-hz", "100"], **how)
+    block = tmp_path / "walk" / "record.blocks" / "000000.npz"
+    until = time.monotonic() + 120.0
+    while not block.exists() and time.monotonic() < until:
+        time.sleep(0.02)
+    process.kill()
+    process.wait()
+    left = Record.load(block.parent)
+    assert len(left) >= 500
+    assert left.run.interrupted
+    assert left.dt == pytest.approx(0.01)
+    plotted = [sys.executable, "-m", "preview_walk", "plot", "walk/record.blocks"]
+    done = subprocess.run(plotted, capture_output=True, text=True, check=True, **how)
+    assert "did not fall" in done.stdout
+    assert (tmp_path / "walk" / "walk.png").exists()
+    subprocess.run([*command, "--steps", "2"], check=True, **how)
+    names = {path.name for path in (tmp_path / "walk").iterdir()}
+    assert names == {"record.npz", "summary.json", "run.toml"}

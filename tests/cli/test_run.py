@@ -32,7 +32,9 @@ def test_options_reach_plan_and_simulation(simulation: Simulation, out: Path) ->
 
 def test_what_is_not_asked_for_the_simulation_decides(simulation: Simulation, out: Path) -> None:
     assert run(out) == 0
-    assert set(simulation.calls[0]) == {"robot", "plan", "pushes", "seed", "viewer"}
+    given = simulation.calls[0]
+    assert set(given) == {"robot", "plan", "pushes", "seed", "viewer", "blocks"}
+    assert given["blocks"] == out / "record.blocks"
 
 
 def test_rates_solver_and_generator_reach_the_simulation(simulation: Simulation, out: Path) -> None:

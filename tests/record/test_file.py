@@ -196,7 +196,9 @@ def test_a_name_too_long_is_of_no_file(tmp_path: Path) -> None:
 
 def test_folders_and_pipes_are_no_records(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
-    for path in (tmp_path, tmp_path / "pipe", "/dev/zero"):
+    with pytest.raises(InvalidInput, match="holds no record's blocks"):
+        Record.load(tmp_path)
+    for path in (tmp_path / "pipe", "/dev/zero"):
         with pytest.raises(InvalidInput, match="it is not a file"):
             Record.load(path)
 

@@ -81,7 +81,7 @@ def test_an_empty_record_can_be_saved_and_summarised(tmp_path: Path) -> None:
 
 
 def test_recorder_grows_copies_and_marks_what_is_missing() -> None:
-    recorder = Recorder(RunFacts(control_hz=500), SIZES, capacity=2)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES, room=2)
     com = np.zeros(3)
     for i in range(7):
         com[:] = i
@@ -138,7 +138,7 @@ def test_the_callers_arrays_are_not_kept(record: Record) -> None:
 
 
 def test_a_record_of_a_run_that_goes_on_does_not_change() -> None:
-    recorder = Recorder(RunFacts(control_hz=500), SIZES, capacity=4)
+    recorder = Recorder(RunFacts(control_hz=500), SIZES, room=4)
     recorder.write(time=0.0, com=np.zeros(3))
     first = recorder.finish()
     recorder._ticks._arrays["com"][0] = 1.0
