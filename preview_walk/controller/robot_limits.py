@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import lru_cache
+from math import sqrt
 
 import numpy as np
 import pinocchio as pin
@@ -26,6 +27,26 @@ def gait_limits(robot: Robot) -> GaitLimits:
     instance_of(robot, Robot, "robot")
     limits = GaitLimits.for_leg(robot.leg_length, robot.step_width, robot.sole)
     return replace(limits, motors=MotorLimits(robot))
+
+
+USUAL_LENGTH, USUAL_SHARE = 0.25, 0.31
+"""Step length of a walk that nobody gave one: so much (m), and no more than this share of the leg,
+which TALOS's just is not short of."""
+
+USUAL_BEAT = 3.13
+"""Step time of such a walk over the pendulum time sqrt(leg / g): 0.9 s for TALOS."""
+
+
+def usual_planner(robot: Robot) -> FootstepPlanner:
+    """Return a planner of steps that suit a robot of this size: an easy walk.
+
+    Raises:
+        InvalidInput: it is no robot.
+    """
+    leg = instance_of(robot, Robot, "robot").leg_length
+    length = min(USUAL_LENGTH, round(USUAL_SHARE * leg, 3))
+    time = round(USUAL_BEAT * sqrt(leg / robot.gravity), 2)
+    return FootstepPlanner(length, robot.step_width, time)
 
 
 SPEED_SHARE = 0.72

@@ -30,8 +30,8 @@ def complaint(capsys: pytest.CaptureFixture[str]) -> str:
 
 def test_defaults() -> None:
     options = parse([])
-    assert (options.robot, options.steps, options.step_length) == ("talos", 20, 0.25)
-    assert (options.step_time, options.double_support_ratio) == (0.9, 0.2)
+    assert (options.robot, options.steps, options.step_length) == ("talos", 20, None)
+    assert (options.step_time, options.double_support_ratio) == (None, 0.2)
     assert (options.turn, options.commands, options.random_pushes) == (0.0, (), None)
     assert (options.physics_hz, options.control_hz, options.solver) == (None, None, None)
     assert (options.list_robots, options.inspect) == (False, None)
