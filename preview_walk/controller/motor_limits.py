@@ -92,7 +92,7 @@ class MotorLimits:
                 continue
             key = _key(plan, number - 1)
             if key not in seen:
-                seen[key] = _need(robot, plan, step, (times, com))
+                seen[key] = _largest(robot, step, _loads(robot, plan, step, (times, com)))
             yield number, seen[key]
 
 
@@ -117,8 +117,10 @@ def _key(plan: FootstepPlan, index: int) -> tuple[float, ...]:
     return tuple(round(number, _ROUNDED) for number in key)
 
 
-def _need(robot: Robot, plan: FootstepPlan, step: Footstep, com: tuple[Array, Array]) -> Need:
-    """Return what one swing asks for most; `com`: times (M,), s, and the CoM (M, 3), m."""
+def _loads(
+    robot: Robot, plan: FootstepPlan, step: Footstep, com: tuple[Array, Array]
+) -> SwingLoads:
+    """Return what one swing asks for; `com`: times (M,), s, and the CoM (M, 3), m."""
     stance = other(step.foot)
     dt = (step.land - step.lift) / INSTANTS
     times = step.lift + dt * (np.arange(INSTANTS + 2) - 0.5)
@@ -131,11 +133,12 @@ def _need(robot: Robot, plan: FootstepPlan, step: Footstep, com: tuple[Array, Ar
     way = np.column_stack([np.interp(times, com[0], axis) for axis in com[1].T])
     a, b = heading_of(standing)[2], heading_of(plan.start_pose(step))[2]
     path = JointPath(robot).configurations(soles, way, a + 0.5 * wrap(b - a))
-    return _largest(robot, stance, swing_loads(robot, stance, path, dt))
+    return swing_loads(robot, stance, path, dt)
 
 
-def _largest(robot: Robot, stance: Foot, loads: SwingLoads) -> Need:
-    """Return the largest need of a swing: of a joint's torque or speed, or of the ground."""
+def _largest(robot: Robot, step: Footstep, loads: SwingLoads) -> Need:
+    """Return the largest need of a step's swing: of a joint's torque or speed, or of the ground."""
+    stance = other(step.foot)
     torque, speed = _over_half(loads.torque), _over_half(loads.speed)
     needs = []
     for foot in FEET:
