@@ -35,7 +35,7 @@ def over_half_a_swing(signal: Array) -> Array:
 
 @pytest.mark.parametrize(("length", "time"), [(0.25, 0.9), (0.28, 0.46), (0.365, 0.575)])
 def test_asks_for_what_is_measured(talos: Robot, length: float, time: float) -> None:
-    """Where a walk has all it needs, MuJoCo's torques and speeds are those foreseen, joint by joint.
+    """Where a walk has all it needs, the torques and speeds of each joint are those foreseen.
 
     The walk's own record is the witness: nothing in it comes from this inverse dynamics.
     """
