@@ -9,10 +9,6 @@ from preview_walk.cli.values import Reader, named_numbers, number, numbers, text
 
 DEFAULT_ROBOT = "talos"
 DEFAULT_STEPS = 20
-DEFAULT_STEP_LENGTH = 0.25
-"""Metres from one landing to the next."""
-DEFAULT_STEP_TIME = 0.9
-"""Seconds from one landing to the next."""
 DEFAULT_DOUBLE_SUPPORT_RATIO = 0.2
 DEFAULT_OUT = "walk"
 DEFAULT_PORT = 8080
@@ -73,13 +69,13 @@ _STEPPING = (
         "M",
         number("a length in metres from -2 to 2", lambda x: -2.0 <= x <= 2.0),
         "metres from one landing to the next; below 0 walks backwards "
-        f"(default {DEFAULT_STEP_LENGTH})",
+        "(default 0.25, less for short legs)",
     ),
     Option(
         "--step-time",
         "S",
         number("a time in seconds above 0 and up to 10", lambda x: 0.0 < x <= 10.0),
-        f"seconds from one landing to the next (default {DEFAULT_STEP_TIME})",
+        "seconds from one landing to the next (default by the leg, 0.9 for TALOS)",
     ),
     Option(
         "--double-support-ratio",

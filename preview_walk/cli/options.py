@@ -14,8 +14,6 @@ from preview_walk.cli.config import config_text, with_config
 from preview_walk.cli.option_table import (
     DEFAULT_DOUBLE_SUPPORT_RATIO,
     DEFAULT_PORT,
-    DEFAULT_STEP_LENGTH,
-    DEFAULT_STEP_TIME,
     DEFAULT_STEPS,
     STEPPING,
 )
@@ -29,7 +27,7 @@ class Options:
     Attributes:
         robot: name or path.
         steps, step_length, step_time, double_support_ratio, turn: of a walk by footsteps; turn in
-            rad per step.
+            rad per step; length and time None: what suits the robot.
         commands: pairs of a velocity (m/s, m/s, rad/s) and its duration (s); none: walk by
             footsteps.
         start: x, y (m), yaw (rad).
@@ -57,8 +55,8 @@ class Options:
 
     robot: str
     steps: int
-    step_length: float
-    step_time: float
+    step_length: float | None
+    step_time: float | None
     double_support_ratio: float
     turn: float
     commands: tuple[tuple[tuple[float, float, float], float], ...]
@@ -104,8 +102,8 @@ def parse(argv: Sequence[str] | None = None) -> Options:
     return Options(
         robot=found.robot,
         steps=_or(found.steps, DEFAULT_STEPS),
-        step_length=_or(found.step_length, DEFAULT_STEP_LENGTH),
-        step_time=_or(found.step_time, DEFAULT_STEP_TIME),
+        step_length=found.step_length,
+        step_time=found.step_time,
         double_support_ratio=_or(found.double_support_ratio, DEFAULT_DOUBLE_SUPPORT_RATIO),
         turn=radians(_or(found.turn, 0.0)),
         commands=tuple(

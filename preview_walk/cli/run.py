@@ -24,6 +24,7 @@ from preview_walk.cli.results import (
     writers_of,
 )
 from preview_walk.cli.streams import complain, emphasised, say
+from preview_walk.controller.robot_limits import usual_planner
 from preview_walk.errors import InvalidInput
 from preview_walk.files import claimed, make_folder, whole_file
 from preview_walk.footsteps.plan import FootstepPlan
@@ -32,8 +33,9 @@ from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 from preview_walk.simulation.pushes import Push, random_pushes
 
-RAMP_LENGTH = 0.1
-"""The walk speeds up and slows down by about so much a step (m)."""
+RAMP_LENGTH, RAMP_SHARE = 0.1, 0.125
+"""The walk speeds up and slows down by about so much a step (m), and by no more than this share of
+the leg."""
 
 
 def run(options: Options, command: str, interruption: Interruption) -> Record:
@@ -158,13 +160,14 @@ def _plan(options: Options, robot: Robot) -> FootstepPlan | None:
         return None
     if options.footsteps is not None:
         return pw.read_footsteps(options.footsteps)
+    usual = usual_planner(robot)
     planner = pw.FootstepPlanner(
-        step_length=options.step_length,
+        step_length=usual.step_length if options.step_length is None else options.step_length,
         step_width=robot.step_width,
-        step_time=options.step_time,
+        step_time=usual.step_time if options.step_time is None else options.step_time,
         double_support_ratio=options.double_support_ratio,
     )
-    ramp = round(abs(options.step_length) / RAMP_LENGTH)
+    ramp = round(abs(planner.step_length) / min(RAMP_LENGTH, RAMP_SHARE * robot.leg_length))
     return planner.generate_footsteps(options.steps, options.start, turn=options.turn, ramp=ramp)
 
 

@@ -9,20 +9,23 @@ import numpy as np
 from preview_walk.arguments import instance_of, number_within, real_array, shown
 from preview_walk.controller.airborne import Airborne
 from preview_walk.controller.balance import Balance
+from preview_walk.controller.body_model import (
+    BLIND_SWING_HEIGHT,
+    SWING_HEIGHT,
+    walker_model,
+)
 from preview_walk.controller.feeling import CAREFUL, FeltGround, settling
 from preview_walk.controller.feet import DEEP_SEARCH, NOISY_SEARCH, SEARCH, Feet
 from preview_walk.controller.friction import FrictionCompensation
 from preview_walk.controller.hardware import Hardware, smoothing_time
 from preview_walk.controller.landing import on_ground
-from preview_walk.controller.momentum_model import momentum_model
-from preview_walk.controller.robot_limits import gait_limits, leg_geometry
+from preview_walk.controller.robot_limits import gait_limits
 from preview_walk.controller.torso import torso_motion
 from preview_walk.errors import InvalidInput
 from preview_walk.footsteps.handover import refusal
 from preview_walk.footsteps.laying import ROUGH, UNEVEN, relay, swung
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.pattern.com.sampled_plan import PLANNING_DT
-from preview_walk.pattern.walker_model import WalkerModel
 from preview_walk.pattern.walking_pattern import ComReference, WalkingPattern
 from preview_walk.robots.building.contact_sensor import zmp
 from preview_walk.robots.robot import Robot
@@ -33,12 +36,6 @@ from preview_walk.tracking.gains import TrackingGains
 from preview_walk.tracking.measured import check_wrenches
 from preview_walk.tracking.whole_body import WholeBodyController
 from preview_walk.types import FEET, Array, Foot
-
-SWING_HEIGHT = 0.06
-"""Height of the swing foot's apex over the leg's length, where none is given."""
-
-BLIND_SWING_HEIGHT = 0.12
-"""The same where the ground is not known."""
 
 
 class Walker:
@@ -109,8 +106,7 @@ class Walker:
         )
         self.weight = robot.mass * robot.gravity
         com = self.body.dynamics.com.copy()
-        legs = leg_geometry(robot)
-        model = WalkerModel(legs, robot.sole, momentum_model(robot), self.swing_height)
+        model = walker_model(robot, self.swing_height)
         self.pattern = WalkingPattern(plan, com, model, com_generator)
         known = SEARCH if hardware is None else NOISY_SEARCH
         search = DEEP_SEARCH if blind else known

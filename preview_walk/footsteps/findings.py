@@ -54,3 +54,17 @@ def step_findings(plan: FootstepPlan, limits: GaitLimits, since: float = -inf) -
             if problem is not None:
                 text = f"step {number} {problem.text}"
                 yield Finding(step.land, text, number, problem.argument)
+
+
+def motor_findings(plan: FootstepPlan, limits: GaitLimits) -> Iterator[Finding]:
+    """Yield the steps of a plan that ask for more than the limits' motors have.
+
+    Args:
+        plan: the walk.
+        limits: bounds of its steps.
+    """
+    if limits.motors is None:
+        return
+    for number, problem in limits.motors.problems(plan):
+        land = plan.steps[number - 1].land
+        yield Finding(land, f"step {number} {problem.text}", number, problem.argument)

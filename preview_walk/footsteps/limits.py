@@ -8,6 +8,7 @@ from math import cos, sin, sqrt
 from preview_walk.arguments import foot_of, instance_of, positive_number, share_of
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.motors import Motors
 from preview_walk.footsteps.step_problem import (
     ROUNDING,
     StepProblem,
@@ -64,6 +65,7 @@ class GaitLimits:
         slow_double_support: share of double support in the step time at the lowest speeds.
         fast_double_support: the same at full speed.
         speed_change: largest change of the forward speed from one step to the next, m/s.
+        motors: whether motors and joint speeds are enough for a plan's steps; None: not looked at.
 
     Raises:
         InvalidInput: a bound that is not finite and positive, or two that exclude each other.
@@ -85,11 +87,12 @@ class GaitLimits:
     slow_double_support: float = 0.2
     fast_double_support: float = 0.05
     speed_change: float = 0.15
+    motors: Motors | None = field(default=None, compare=False, kw_only=True)
 
     def __post_init__(self) -> None:
         """Check the bounds."""
         instance_of(self.sole, Sole, "sole")
-        for bound in fields(self)[1:]:
+        for bound in fields(self)[1:-1]:
             unit = _UNITS.get(bound.name, "m")
             size = positive_number(getattr(self, bound.name), bound.name, unit)
             object.__setattr__(self, bound.name, size)

@@ -16,6 +16,8 @@ from preview_walk.arguments import (
     share_of,
     time_of,
 )
+from preview_walk.errors import InvalidInput
+from preview_walk.footsteps.findings import motor_findings
 from preview_walk.footsteps.layout import Layout, Start
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
@@ -135,9 +137,9 @@ class FootstepPlanner:
                 goes on from where the shorter step lands.
 
         Raises:
-            InvalidInput: a step breaks the limits, with its number and the bound; `argument` is
-                the planner's that is at fault, as in `StepProblem`. Or another argument is not
-                what is described here.
+            InvalidInput: a step breaks the limits or asks for more than their motors have, with
+                its number and the bound; `argument` is the planner's that is at fault, as in
+                `StepProblem`. Or another argument is not what is described here.
         """
         foot = foot_of(start_foot, "start_foot")
         if limits is not None:
@@ -159,7 +161,10 @@ class FootstepPlanner:
                 frame = compose(landing, 0.0, -0.5 * width if foot == "left" else 0.5 * width)
             layout.add(foot, pose, time * (1.0 - ratio), time * ratio)
             foot = other(foot)
-        return layout.plan()
+        plan = layout.plan()
+        if limits is not None and not shorten:
+            _require_motors(plan, limits)
+        return plan
 
     def begin(self, start: Start) -> FootstepPlan:
         """Return the plan that a walk goes on from: one that is given, or a stand at a place."""
@@ -205,3 +210,10 @@ class FootstepPlanner:
         if until <= since:
             return "double", 0.0 if t < since else 1.0
         return "double", min(1.0, max(0.0, (t - since) / (until - since)))
+
+
+def _require_motors(plan: FootstepPlan, limits: GaitLimits) -> None:
+    """Raise `InvalidInput` where a step asks for more than the limits' motors have."""
+    finding = next(motor_findings(plan, limits), None)
+    if finding is not None:
+        raise InvalidInput(f"{finding.text}.", argument=finding.argument)

@@ -1,6 +1,6 @@
 """One call that says in words what is wrong with a plan and its references, and where.
 
-`check_plan` looks at every step (reach, time in the air, soles that collide) and at the
+`check_plan` looks at every step (reach, time in the air, soles that collide, motors) and at the
 references (ZMP outside the support polygon, CoM that runs away from the feet, jumps).
 """
 
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from preview_walk.arguments import instance_of, real_array
 from preview_walk.errors import InvalidInput
-from preview_walk.footsteps.findings import Finding, step_findings
+from preview_walk.footsteps.findings import Finding, motor_findings, step_findings
 from preview_walk.footsteps.laying import ground_findings
 from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.plan import FootstepPlan
@@ -68,6 +68,8 @@ def check_plan(
     """
     plan, limits = as_plan(plan), instance_of(limits, GaitLimits, "limits")
     findings = [*step_findings(plan, limits)]
+    # A step out of the legs' reach has no motion whose torques could be told.
+    findings += motor_findings(plan, limits) if not findings else []
     if ground is not None:
         findings += ground_findings(plan, ground, limits.sole)
     if times is None:

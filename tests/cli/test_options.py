@@ -20,6 +20,7 @@ from preview_walk.cli import main as cli
 from preview_walk.cli import options as cli_options
 from preview_walk.cli.option_table import OPTIONS, Option
 from preview_walk.cli.options import parse
+from preview_walk.controller.robot_limits import USUAL_LENGTH, USUAL_SHARE
 
 
 def complaint(capsys: pytest.CaptureFixture[str]) -> str:
@@ -30,8 +31,8 @@ def complaint(capsys: pytest.CaptureFixture[str]) -> str:
 
 def test_defaults() -> None:
     options = parse([])
-    assert (options.robot, options.steps, options.step_length) == ("talos", 20, 0.25)
-    assert (options.step_time, options.double_support_ratio) == (0.9, 0.2)
+    assert (options.robot, options.steps, options.step_length) == ("talos", 20, None)
+    assert (options.step_time, options.double_support_ratio) == (None, 0.2)
     assert (options.turn, options.commands, options.random_pushes) == (0.0, (), None)
     assert (options.physics_hz, options.control_hz, options.solver) == (None, None, None)
     assert (options.list_robots, options.inspect) == (False, None)
@@ -104,7 +105,8 @@ def test_any_line_is_read_or_gets_one_sentence(line: list[str]) -> None:
         assert errors.getvalue().startswith("preview-walk: ")
         assert errors.getvalue().count("\n") == 1
     else:
-        numbers = [options.step_length, options.step_time, options.turn, *options.start]
+        steps = [x for x in (options.step_length, options.step_time) if x is not None]
+        numbers = [*steps, options.turn, *options.start]
         numbers += [x for command, duration in options.commands for x in (*command, duration)]
         numbers += [x for t, duration, force in options.pushes for x in (t, duration, *force)]
         assert np.abs(numbers).max() <= 1e5
@@ -251,8 +253,6 @@ def test_the_readme_has_every_option_and_default(capsys: pytest.CaptureFixture[s
     options = parse([])
     for name in (
         "steps",
-        "step-length",
-        "step-time",
         "double-support-ratio",
         "seed",
         "out",
@@ -260,6 +260,8 @@ def test_the_readme_has_every_option_and_default(capsys: pytest.CaptureFixture[s
     ):
         value = getattr(options, name.replace("-", "_"))
         assert defaults[f"--{name}"].strip("`") == str(value)
+    assert defaults["--step-length"] == f"{USUAL_LENGTH}, and at most {USUAL_SHARE} of the leg"
+    assert defaults["--step-time"] == "by the leg: 0.9 for TALOS"
 
 
 def test_python_m_is_the_same_command() -> None:
