@@ -22,7 +22,7 @@ def com_path(plan: FootstepPlan, model: WalkerModel) -> tuple[Array, Array]:
         plan: the walk.
         model: of the robot.
     """
-    sampled = sample_plan(plan, plan.start, 0, model)
+    sampled = sample_plan(plan, plan.start, 0, model, span=None)
     plane = PreviewController(model.pendulum_height, PLANNING_DT, PREVIEW_TIME)
     lift = PreviewController(1e-9, PLANNING_DT, PREVIEW_TIME, r=HEIGHT_EFFORT)
     heights = wanted_heights(plan, sampled.times, model.legs)

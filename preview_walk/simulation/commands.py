@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import islice
 
 import numpy as np
@@ -31,11 +31,12 @@ class VelocityCommands:
         current: the command in force.
     """
 
-    def __init__(self, limits: GaitLimits, dt: float) -> None:
+    def __init__(self, limits: Callable[[], GaitLimits], dt: float) -> None:
         """Stand, until a command comes.
 
         Args:
-            limits: of the steps; commands are scaled down to them.
+            limits: gives the bounds of the steps, to which commands are scaled down; asked for
+                when there is a command, for what motors allow takes a second to find.
             dt: time of a control tick, s.
         """
         self.current = STOP
@@ -60,7 +61,7 @@ class VelocityCommands:
 
     def give(self, t: float, command: Command) -> None:
         """Put a command in force at time t (s); raises `InvalidInput` for one that cannot be."""
-        saturated(command, self._limits)
+        saturated(command, self._limits())
         vx, vy, wz = (float(speed) for speed in command)
         self.current, self._due = (vx, vy, wz), t
 
@@ -77,7 +78,7 @@ class VelocityCommands:
         later = []
         for command, given in _pairs(commands):
             duration = positive_number(given, "duration", "s")
-            saturated(command, self._limits)
+            saturated(command, self._limits())
             later.append((t, command))
             t += duration
         self._later = [*later, (t, STOP)]
@@ -91,7 +92,7 @@ class VelocityCommands:
             self.give(t, self._later.pop(0)[1])
         if t < self._due:
             return None
-        new = follow_velocity(plan, t, self.current, self._limits)
+        new = follow_velocity(plan, t, self.current, self._limits())
         if new is not plan:
             new = new.since(t - FORGET)
         lift = new.next_lift(t)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -16,6 +17,7 @@ from preview_walk.arguments import (
 )
 from preview_walk.controller.robot_limits import command_limits
 from preview_walk.errors import PreviewWalkError
+from preview_walk.footsteps.limits import GaitLimits
 from preview_walk.footsteps.reading import PlanLike, as_plan
 from preview_walk.reality.realism import Realism
 from preview_walk.record.record import Record
@@ -45,7 +47,7 @@ Progress = Callable[[float, float], None]
 """Called now and then with the simulated time and its end (s)."""
 
 _ROUNDING = 1e-9
-_ATTRIBUTES = ("robot", "plant", "walker", "limits", "plan", "gains")
+_ATTRIBUTES = ("robot", "plant", "walker", "plan", "gains")
 
 
 class Walk(Steered):
@@ -57,7 +59,6 @@ class Walk(Steered):
     Attributes:
         robot, plant: the robot that walks, and what is sensed and driven.
         walker: the controller.
-        limits: what steps the robot's legs can make by command.
     """
 
     def __init__(
@@ -126,8 +127,7 @@ class Walk(Steered):
         ways: dict[str, Any] = {"swing_height": swing_height, "com_generator": com_generator}
         self.walker = stand(self.plant, plan, blind is True, gains=gains, solver=solver, **ways)
         self._sight = sight_of(self.plant, self.walker, self._dt)
-        self.limits = command_limits(self.robot)
-        self._commands = VelocityCommands(self.limits, self._dt)
+        self._commands = VelocityCommands(partial(command_limits, self.robot), self._dt)
         self._on_tick = function_of(on_tick, "on_tick")
         self._requests, self._retuned = Requests(), []
         self._start, self._tick, self._wall = plan.start, 0, 0.0
@@ -158,6 +158,11 @@ class Walk(Steered):
                 f"a Walk has no '{name}'; give settings when it is made, and assign plan."
             )
         object.__setattr__(self, name, value)
+
+    @property
+    def limits(self) -> GaitLimits:
+        """Bounds of the steps that velocity commands are scaled down to."""
+        return command_limits(self.robot)
 
     @property
     def fallen(self) -> bool:

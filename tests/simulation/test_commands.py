@@ -187,7 +187,7 @@ def test_a_walk_for_ever_needs_an_end(talos: Robot) -> None:
 def test_a_walk_for_ever_keeps_a_short_plan() -> None:
     """Two minutes of planning alone: what is older than a few seconds is forgotten."""
     limits = pw.GaitLimits()
-    commands = VelocityCommands(limits, 0.002)
+    commands = VelocityCommands(lambda: limits, 0.002)
     plan = FootstepPlan.standing(pose_at(0.0, 0.1, 0.0), pose_at(0.0, -0.1, 0.0))
     commands.give(0.0, (0.3, 0.0, 0.1))
     for tick in range(1200):

@@ -62,7 +62,6 @@ def test_a_turn_in_place(name: str, angle: float) -> None:
 def test_a_velocity_beyond_the_joints_speed_is_cut_to_what_they_can() -> None:
     """Romeo's hips pitch at 2.1 rad/s; asked for more than a robot of its size could walk."""
     walk = pw.Walk.standing(pw.load_robot("romeo"))
-    walk.limits = command_limits(walk.robot)
     walk.schedule([((2.0, 0.0, 0.0), 5.0)])
     summary = walk.run().record().summary()
     assert not summary.fell, summary.fall_reason

@@ -106,17 +106,20 @@ class SampledPlan:
         return value
 
 
-def sample_plan(plan: FootstepPlan, start: float, tick: int, model: WalkerModel) -> SampledPlan:
-    """Return a plan sampled from a planning tick on, as far as one looks ahead and `SPAN` more.
+def sample_plan(
+    plan: FootstepPlan, start: float, tick: int, model: WalkerModel, span: int | None = SPAN
+) -> SampledPlan:
+    """Return a plan sampled from a planning tick on, as far as one looks ahead and a span more.
 
     Args:
         plan: the footsteps.
         start: time of the planning tick 0, s.
         tick: the first one to sample.
         model: of the robot.
+        span: planning ticks; None: to the end of the plan.
     """
     left = max(0, int(np.ceil((plan.end - start) / PLANNING_DT)) - tick)
-    span = min(left, SPAN)
+    span = left if span is None else min(left, span)
     times: Array = start + PLANNING_DT * np.arange(tick, tick + span + AHEAD + 2, dtype=np.float64)
     near = _within(plan, float(times[0]), float(times[-1]))
     reference = zmp_reference(near, model.sole).at(times)
