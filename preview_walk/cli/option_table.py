@@ -75,7 +75,7 @@ _STEPPING = (
         "--step-time",
         "S",
         number("a time in seconds above 0 and up to 10", lambda x: 0.0 < x <= 10.0),
-        "seconds from one landing to the next (default by the leg, 0.9 for TALOS)",
+        "seconds from one landing to the next (default by the leg, 0.9 for one of 0.8 m)",
     ),
     Option(
         "--double-support-ratio",

@@ -12,6 +12,7 @@ from cli_stand_in import Simulation, blank
 
 import preview_walk as pw
 from preview_walk.analysis import plots
+from preview_walk.cli import run as command_run
 
 
 @pytest.fixture(autouse=True)
@@ -40,7 +41,10 @@ def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) 
     if not request.node.get_closest_marker("real_plots"):
         monkeypatch.setattr(plots, "plot", lambda _, path: blank(path))
         monkeypatch.setattr(plots, "save_plot", lambda _, name, path: blank(path))
-    monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, step_width=0.17))
+    robot = SimpleNamespace(step_width=0.17, leg_length=0.87)
+    monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, **vars(robot)))
+    usual = pw.FootstepPlanner(0.25, robot.step_width, 0.9)
+    monkeypatch.setattr(command_run, "usual_planner", lambda robot: usual)
     return made
 
 

@@ -23,6 +23,7 @@ from types import SimpleNamespace
 from synthetic_walk import walk_record
 import preview_walk as pw
 from preview_walk.analysis import plots
+from preview_walk.cli import run
 from preview_walk.cli.main import main
 from preview_walk.record import record
 
@@ -51,7 +52,8 @@ def draw(*arguments):
     arguments[-1].write_bytes(b"a picture")
 
 pw.simulate, plots.plot, plots.save_plot, record.Record.save = simulate, draw, draw, save
-pw.load_robot = lambda name: SimpleNamespace(name=name, step_width=0.17)
+pw.load_robot = lambda name: SimpleNamespace(name=name, step_width=0.17, leg_length=0.87)
+run.usual_planner = lambda robot: pw.FootstepPlanner(0.25, 0.17, 0.9)
 sys.exit(main(sys.argv[1:]))
 """
 
