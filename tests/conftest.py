@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import settings
 
 import preview_walk as pw
 from preview_walk.footsteps.plan import FootstepPlan
+from preview_walk.preview import kept
 from preview_walk.record.record import Record
 from preview_walk.robots.robot import Robot
 
@@ -26,6 +27,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for name in WALKED_ONCE:
             if name in getattr(item, "fixturenames", ()):
                 item.add_marker(pytest.mark.xdist_group(name))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nothing_kept(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep no Riccati solution from one run of the tests to the next: each is solved here."""
+    folder = tmp_path_factory.mktemp("kept")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(kept, "user_cache_path", lambda _: folder)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -21,6 +21,7 @@ from preview_walk.analysis.load_plots import (
     draw_torques,
 )
 from preview_walk.analysis.motion_plots import draw_axis, draw_errors, draw_feet
+from preview_walk.analysis.names import OVERVIEW, SINGLE
 from preview_walk.analysis.phase_plots import draw_phases, draw_timing_errors
 from preview_walk.analysis.style import new_figure, picture_path, save_figure
 from preview_walk.analysis.top_view import draw_top_view
@@ -97,18 +98,10 @@ def overview(record: Record) -> Figure:
     return figure
 
 
-PLOTS: dict[str, Callable[[Record], Figure]] = {
-    "top_view": top_view,
-    "com_dcm_zmp": com_dcm_zmp,
-    "feet": feet,
-    "forces": forces,
-    "torques": torques,
-    "phases": phases,
-}
+PLOTS: dict[str, Callable[[Record], Figure]] = dict(
+    zip(SINGLE, (top_view, com_dcm_zmp, feet, forces, torques, phases), strict=True)
+)
 """Every single plot by the name of its file."""
-
-OVERVIEW = "overview"
-"""Name of all of them on one page."""
 
 
 def figure(record: Record, name: str = OVERVIEW) -> Figure:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
+from preview_walk.analysis.names import SINGLE
 from preview_walk.cli.interruption import Interruption
 from preview_walk.cli.naming import naming
 from preview_walk.cli.progress import progress_bar
@@ -25,9 +26,7 @@ Writers = Mapping[str, Callable[[Path], object]]
 
 def result_names() -> tuple[str, ...]:
     """Return the names of all files that a run may write, most precious first."""
-    from preview_walk.analysis.plots import PLOTS
-
-    return (RECORD, SUMMARY, CONFIG, OVERVIEW, *(f"{name}.png" for name in PLOTS), FILM, PAGE)
+    return (RECORD, SUMMARY, CONFIG, OVERVIEW, *(f"{name}.png" for name in SINGLE), FILM, PAGE)
 
 
 def writers_of(
@@ -40,13 +39,10 @@ def writers_of(
     quiet: bool = False,
 ) -> tuple[Writers, Writers]:
     """Return what writes the figures of a run, and what writes its pictures."""
-    from preview_walk.analysis.plots import PLOTS, plot, save_plot
-
     figures = {RECORD: record.save, SUMMARY: record.summary().write}
     drawn: dict[str, Callable[[Path], object]] = {}
     if pictures and len(record):
-        drawn[OVERVIEW] = partial(plot, record)
-        drawn |= {f"{name}.png": partial(save_plot, record, name) for name in PLOTS}
+        drawn[OVERVIEW] = partial(_overview, record)
     if film and len(record):
         drawn[FILM] = partial(_film, record, robot, shown=not quiet)
     if page and len(record):
@@ -88,6 +84,12 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(f"cannot replace {path}: {error.strerror}.") from error
+
+
+def _overview(record: Record, path: Path) -> None:
+    from preview_walk.analysis.plots import plot
+
+    plot(record, path)
 
 
 def _page(record: Record, robot: Robot, path: Path) -> None:

@@ -20,10 +20,14 @@ import numpy as np
 from preview_walk.constants import GRAVITY
 from preview_walk.errors import InvalidInput
 from preview_walk.preview.checks import positive, read_only
+from preview_walk.preview.plant import Plant, as_state_space
 from preview_walk.types import Array
 
 if TYPE_CHECKING:
     import control
+
+STATES, INPUTS, OUTPUTS = ("com", "velocity", "acceleration"), ("jerk",), ("zmp",)
+"""Names of the cart-table's signals."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,6 +188,35 @@ def zmp_output(z_c: float, gravity: float = GRAVITY) -> Array:
     return np.array([[1.0, 0.0, -lever]])
 
 
+def sampled_cart_table(z_c: float, dt: float, gravity: float = GRAVITY) -> Plant:
+    """Return the cart-table of one axis as a `Plant`.
+
+    Args:
+        z_c: Height of the CoM above the ZMP (m).
+        dt: Sampling time (s) of the exact zero-order hold of the jerk.
+        gravity: Acceleration of gravity (m/s^2).
+
+    Returns:
+        A plant with states [c, c', c''], input jerk and output ZMP, sampled at dt.
+
+    Raises:
+        InvalidInput: If z_c, dt or gravity is not a positive, finite number.
+
+    """
+    dt = positive("dt", dt, "s")
+    try:
+        a, b = transition(dt)
+    except OverflowError:
+        raise InvalidInput(
+            f"expected dt whose third power is a number, got {dt:g} s.", argument="dt"
+        ) from None
+    output = zmp_output(z_c, gravity)
+    return Plant(
+        a, b, output, np.zeros((1, 1)), np.zeros((3, 0)), dt, STATES, INPUTS, OUTPUTS, (),
+        "cart_table",
+    )  # fmt: skip
+
+
 def cart_table(
     z_c: float = 0.8, dt: float | None = None, gravity: float = GRAVITY
 ) -> control.StateSpace:
@@ -204,25 +237,16 @@ def cart_table(
     """
     import control
 
-    output = zmp_output(z_c, gravity)
-    if dt is None:
-        a, b, timebase = np.eye(3, k=1), np.array([[0.0], [0.0], [1.0]]), 0.0
-    else:
-        timebase = positive("dt", dt, "s")
-        try:
-            a, b = transition(timebase)
-        except OverflowError:
-            raise InvalidInput(
-                f"expected dt whose third power is a number, got {dt:g} s.", argument="dt"
-            ) from None
+    if dt is not None:
+        return as_state_space(sampled_cart_table(z_c, dt, gravity))
     return control.StateSpace(
-        a,
-        b,
-        output,
+        np.eye(3, k=1),
+        np.array([[0.0], [0.0], [1.0]]),
+        zmp_output(z_c, gravity),
         np.zeros((1, 1)),
-        timebase,
-        states=["com", "velocity", "acceleration"],
-        inputs=["jerk"],
-        outputs=["zmp"],
+        0.0,
+        states=list(STATES),
+        inputs=list(INPUTS),
+        outputs=list(OUTPUTS),
         name="cart_table",
     )

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from preview_walk.arguments import shown
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.cart_table import ComState, ComTrajectory, cart_table, coasted
+from preview_walk.preview.cart_table import ComState, ComTrajectory, coasted, sampled_cart_table
 from preview_walk.preview.checks import positive, read_only, real_array, require_type
 from preview_walk.preview.design import PreviewDesign
 from preview_walk.preview.gains import preview_gains
@@ -71,7 +71,7 @@ class PreviewController(LabNames):
 
         """
         dt = positive("dt", dt, "s")
-        system = cart_table(z_c, dt)
+        plant = sampled_cart_table(z_c, dt)
         preview_time = positive("preview_time", preview_time, "s")
         if not preview_time / dt <= MAX_HORIZON:
             raise InvalidInput(
@@ -83,7 +83,7 @@ class PreviewController(LabNames):
         self.dt = dt
         self.n_preview = max(1, round(preview_time / dt))
         try:
-            design = preview_gains(system, q_e, q_x, r, self.n_preview)
+            design = preview_gains(plant, q_e, q_x, r, self.n_preview)
         except InvalidInput as error:
             names = {"Q_e": "q_e", "Q_x": "q_x", "R": "r"}
             argument = names.get(error.argument or "", error.argument)

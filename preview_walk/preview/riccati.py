@@ -1,4 +1,7 @@
-"""The discrete algebraic Riccati equation, solved by `control.dare` and checked afterwards."""
+"""The discrete algebraic Riccati equation, solved by `control.dare` and checked afterwards.
+
+A solution that was found before is taken from `kept`, and checked as a new one is.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ import numpy as np
 import scipy.linalg
 
 from preview_walk.errors import InvalidInput
+from preview_walk.preview.kept import keep_solution, kept_solution
 from preview_walk.preview.problem import Problem, require_detectable
 from preview_walk.types import Array
 
@@ -50,28 +54,47 @@ def solve_riccati(problem: Problem) -> Law:
         InvalidInput: If there is none, or none that numbers of this size can hold.
 
     """
+    require_detectable(problem.phi, problem.q)
+    kept = kept_solution(problem)
+    if kept is not None:
+        law = law_of(problem, kept)
+        if _stabilises(law, _radius(law)):
+            return law
+    law, radius = _solved(problem)
+    if not _stabilises(law, radius):
+        raise InvalidInput(
+            "expected a Riccati equation with a stabilising solution, got one with a relative "
+            f"residual of {law.residual:.1e} and a closed loop of spectral radius {radius:.9f}.",
+            argument="R",
+        )
+    keep_solution(problem, law.riccati)
+    return law
+
+
+def _solved(problem: Problem) -> tuple[Law, float]:
+    """Return the law of `control`'s solution and the spectral radius of its closed loop."""
     import control
 
-    require_detectable(problem.phi, problem.q)
     arguments = (problem.phi, problem.g, problem.q, problem.r)
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings():
-            # What an ill-conditioned equation gives is checked below.
+            # What an ill-conditioned equation gives is checked by the caller.
             warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
             solution = control.dare(*arguments, *(() if problem.s is None else (problem.s,)))[0]
             riccati = np.asarray(solution, dtype=float)
             law = law_of(problem, (riccati + riccati.T) / 2.0)
-        radius = float(np.abs(np.linalg.eigvals(law.closed)).max())
+        return law, _radius(law)
     except (np.linalg.LinAlgError, ValueError, control.ControlArgument) as error:
         sentence = str(error).rstrip(".") + "."
         raise InvalidInput(
             f"expected weights and a system whose Riccati equation can be solved, got: {sentence}",
             argument="R",
         ) from error
-    if not (law.residual < RESIDUAL_TOLERANCE and radius < 1.0):
-        raise InvalidInput(
-            "expected a Riccati equation with a stabilising solution, got one with a relative "
-            f"residual of {law.residual:.1e} and a closed loop of spectral radius {radius:.9f}.",
-            argument="R",
-        )
-    return law
+
+
+def _radius(law: Law) -> float:
+    return float(np.abs(np.linalg.eigvals(law.closed)).max())
+
+
+def _stabilises(law: Law, radius: float) -> bool:
+    return law.residual < RESIDUAL_TOLERANCE and radius < 1.0

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from preview_walk.errors import InvalidInput
-from preview_walk.preview.cart_table import ComTrajectory, cart_table
+from preview_walk.preview.cart_table import ComTrajectory, sampled_cart_table
 from preview_walk.preview.checks import finite_vector, positive
 from preview_walk.preview.half_planes import of_polygons
 from preview_walk.preview.least_distance import least_distance
@@ -53,8 +53,12 @@ def zmp_mpc(
     dt = positive("dt", dt, "s")
     horizon = _horizon(positive("preview_time", preview_time, "s"), dt)
     planes = of_polygons("supports", supports)
-    plant = cart_table(z_c, dt)
-    a, b, c, d = (np.kron(np.eye(2), part) for part in (plant.A, plant.B, plant.C, plant.D))
+    plant = sampled_cart_table(z_c, dt)
+    # np.kron loses the type of its parts.
+    a, b, c, d = (
+        np.asarray(np.kron(np.eye(2), part), dtype=np.float64)
+        for part in (plant.A, plant.B, plant.C, plant.D)
+    )
     ahead = outputs_ahead(a, b, c, d, horizon)
     middle = np.asarray(supports[0], dtype=float).mean(axis=0)
     state = np.zeros(6)

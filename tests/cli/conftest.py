@@ -40,7 +40,6 @@ def simulation(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(pw, "simulate_commands", made.by_commands)
     if not request.node.get_closest_marker("real_plots"):
         monkeypatch.setattr(plots, "plot", lambda _, path: blank(path))
-        monkeypatch.setattr(plots, "save_plot", lambda _, name, path: blank(path))
     robot = SimpleNamespace(step_width=0.17, leg_length=0.87)
     monkeypatch.setattr(pw, "load_robot", lambda name: SimpleNamespace(name=name, **vars(robot)))
     usual = pw.FootstepPlanner(0.25, robot.step_width, 0.9)

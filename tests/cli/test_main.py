@@ -20,7 +20,7 @@ def test_a_walk_leaves_the_table_and_the_folder(
     assert {path.name for path in out.iterdir()} == OUTPUTS
     printed = capsys.readouterr()
     assert "did not fall" in printed.out
-    assert "record.npz, summary.json, run.toml, walk.png, top_view.png" in printed.out
+    assert "record.npz, summary.json, run.toml, walk.png" in printed.out
     assert "walking: 100%" in printed.err
     assert json.loads((out / "summary.json").read_text())["steps"] == 4
     command = Record.load(out / "record.npz").run.command

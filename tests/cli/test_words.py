@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from synthetic_walk import walk_record
 
+from preview_walk.analysis.plots import PLOTS
 from preview_walk.cli.main import main
 
 
@@ -20,7 +21,8 @@ def record(tmp_path: Path) -> Path:
 def test_a_record_is_drawn_again(record: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(record), "--out", str(record.parent)]) == 0
     assert "CoM error rms x, y, z" in capsys.readouterr().out
-    assert (record.parent / "walk.png").stat().st_size > 10_000
+    for name in ("walk", *PLOTS):
+        assert (record.parent / f"{name}.png").stat().st_size > 10_000
 
 
 @pytest.mark.parametrize("word", ["plot", "replay", "inspect", "study", "completion"])

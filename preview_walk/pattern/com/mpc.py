@@ -16,7 +16,7 @@ from preview_walk.constants import GRAVITY
 from preview_walk.footsteps.plan import FootstepPlan
 from preview_walk.pattern.com.generator import pendulum_rows
 from preview_walk.pattern.com.sampled_plan import AHEAD, PLANNING_DT, SampledPlan
-from preview_walk.preview.cart_table import ComState, cart_table, coasted
+from preview_walk.preview.cart_table import ComState, coasted, sampled_cart_table
 from preview_walk.preview.checks import read_only
 from preview_walk.preview.least_distance import least_distance
 from preview_walk.preview.least_input import outputs_ahead
@@ -55,7 +55,7 @@ class MpcGenerator:
     def __init__(self, height: float) -> None:
         """Predict with a cart-table of this height (m)."""
         self._omega = (GRAVITY / height) ** 0.5
-        plant = cart_table(height, PERIOD * PLANNING_DT)
+        plant = sampled_cart_table(height, PERIOD * PLANNING_DT)
         self._lever = -float(plant.C[0, 2])
         ahead = outputs_ahead(plant.A, plant.B, plant.C, plant.D, SAMPLES)
         self._free, self._forced = ahead.free[:, 0], ahead.forced[:, 0, :, 0]
